@@ -1,0 +1,19 @@
+# Flags shared by everything built here; never exported to those who link the installed library.
+add_library(scotopic_compile INTERFACE)
+target_compile_options(scotopic_compile INTERFACE
+  -Wall -Wextra -Wconversion -Wshadow
+  # One multiplication, one rounding: results must not depend on what the compiler fuses.
+  -ffp-contract=off
+  $<$<BOOL:${SCOTOPIC_WERROR}>:-Werror>)
+if(SCOTOPIC_SANITIZE)
+  # float-divide-by-zero is outside "undefined": x/0 is defined by IEEE 754, but here it is a bug.
+  target_compile_options(scotopic_compile INTERFACE
+    -fsanitize=${SCOTOPIC_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(scotopic_compile INTERFACE -fsanitize=${SCOTOPIC_SANITIZE})
+endif()
+
+# scotopic_room(TARGET SOURCES...): adds the files of one room (folder) to its library.
+function(scotopic_room target)
+  list(TRANSFORM ARGN PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
+  target_sources(${target} PRIVATE ${ARGN})
+endfunction()

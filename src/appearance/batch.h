@@ -1,0 +1,44 @@
+// The appearance operator on rows of pixels, in float: what the image tool runs.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "appearance/parameters.h"
+
+namespace scotopic {
+
+/// Rows of `count` pixels as separate planes, changed in place. RGB is linear, in units of white_luminance.
+/// Receptor planes are optional (nullptr): absent cones are computed from RGB, absent rods estimated from it.
+/// Receptor signals are in luminance units (MODEL: D65 of 1 cd/m2 has L+M = 1) per unit of white_luminance.
+struct PixelRows {
+  float* r = nullptr;
+  float* g = nullptr;
+  float* b = nullptr;
+  const float* cone_l = nullptr;
+  const float* cone_m = nullptr;
+  const float* cone_s = nullptr;
+  const float* rod = nullptr;
+  std::size_t count = 0;
+};
+
+/// The operator with everything that does not depend on the pixel worked out once. Immutable: share it
+/// between threads. Results do not depend on how pixels are grouped into calls.
+class AppearanceBatch {
+ public:
+  explicit AppearanceBatch(const AppearanceParameters& parameters);
+  ~AppearanceBatch();
+  AppearanceBatch(AppearanceBatch&&) noexcept;
+  AppearanceBatch& operator=(AppearanceBatch&&) noexcept;
+
+  /// Applies the operator in place. Where `touched` is given (count bytes), touched[i] says whether pixel i
+  /// was computed: 0 means it has the very bits it came in with (photopic, strength 0, or not finite).
+  void apply(const PixelRows& rows, std::uint8_t* touched = nullptr) const noexcept;
+
+ private:
+  struct Constants;
+  std::unique_ptr<const Constants> constants_;
+};
+
+}  // namespace scotopic

@@ -1,0 +1,43 @@
+// What the appearance operator is told: every choice a user can make, with its default. Plain data.
+#pragma once
+
+#include <optional>
+
+#include "kernel/matrix3.h"
+#include "kernel/preset.h"
+#include "receptors/rods.h"
+
+namespace scotopic {
+
+enum class Weight { local, global };
+enum class LuminancePolicy { mesopic, photopic, none };
+
+/// Strength of each effect, 0 (off, costs nothing) to 1 (the model). `all` multiplies every other one.
+struct Strengths {
+  double all = 1.0;
+  double shift = 1.0;
+  double luminance = 1.0;
+  double chroma = 1.0;
+};
+
+struct AppearanceParameters {
+  Model model = Model::filament2021;
+  /// La, the luminance the eye is adapted to, cd/m2; > 0 and finite.
+  double adaptation = 0.1;
+  /// cd/m2 that image value 1 stands for (the "unit"); > 0 and finite.
+  double white_luminance = 0.1 / 0.18;
+  Weight weight = Weight::local;
+  LuminancePolicy luminance = LuminancePolicy::mesopic;
+  Strengths strength;
+  RodEstimate rods = RodEstimate::linear;
+  /// Scotopic over photopic luminance of the scene's illuminant; used only where rods come from colour.
+  double sp_ratio = sp_ratio_d65;
+  /// Trolands per cd/m2 for Model::safko2019 (the thesis leaves its scale to the user); ignored otherwise.
+  double safko_scale = 1.0;
+  /// CIE XYZ (D65 white, Y = 1 for RGB 1,1,1) from the linear RGB that the operator is given.
+  Matrix3<double> xyz_from_rgb = identity3<double>();
+  /// The same for the gamut that results are projected into; nullopt: no projection.
+  std::optional<Matrix3<double>> xyz_from_gamut;
+};
+
+}  // namespace scotopic
