@@ -1,0 +1,55 @@
+// The appearance operator, one pixel at a time in double: written to be read, and what every faster way is held to.
+#pragma once
+
+#include <optional>
+
+#include "appearance/constants.h"
+#include "appearance/projection.h"
+
+namespace scotopic {
+
+struct ReferencePixel {
+  Vec3<double> rgb{};                   ///< linear, in units of white_luminance
+  std::optional<Vec3<double>> cones{};  ///< (L, M, S), luminance units per image unit; absent: from rgb
+  std::optional<double> rod{};          ///< likewise; absent: estimated from rgb
+};
+
+/// Any rgb is accepted; a non-finite component (of any signal given) makes the pixel pass unchanged. Continuous
+/// (C0) in rgb and in La. Black stays black. What La >= 5 cd/m2 or Lloc >= 5 cd/m2 leaves alone is returned
+/// bit for bit. Error against exact arithmetic: a few 1e-15 of the pixel's largest component.
+class AppearanceReference {
+ public:
+  explicit AppearanceReference(const AppearanceParameters& parameters);
+
+  Vec3<double> operator()(const ReferencePixel& pixel) const noexcept;
+
+  const OperatorConstants& constants() const noexcept { return c_; }
+
+ private:
+  struct Light;  // what later stages still need of the input
+
+  Vec3<double> shifted(const Light& in, Vec3<double>& cones) const noexcept;
+  Vec3<double> projected(const Vec3<double>& rgb, const Vec3<double>& in) const noexcept;
+  Vec3<double> with_luminance(const Vec3<double>& rgb, const Vec3<double>& cones, const Light& in) const noexcept;
+  Vec3<double> with_chroma(const Vec3<double>& rgb, double local_luminance) const noexcept;
+  Vec3<double> safko(const ReferencePixel& pixel) const noexcept;
+
+  OperatorConstants c_;
+  std::optional<GamutProjection<double>> projection_;
+  Matrix3<double> rgb_from_lms_cat02_;
+};
+
+/// r in luminance units per image unit, from linear RGB; never negative.
+double rod_signal_from_rgb(const OperatorConstants& constants, const Vec3<double>& rgb) noexcept;
+
+/// Y_out of the luminance policy, image units. `rod` as above, `m` the mesopic adaptation coefficient.
+double policy_luminance(const OperatorConstants& constants, double photopic, double rod, double m) noexcept;
+
+/// Factor that takes a colour of luminance `from` to `to` at constant chromaticity:
+///   s = max(0, to + e)/(from + e),  e = max(0, luminance_floor * largest - from),
+/// largest: the greatest |cone signal| relative to white's. Exactly to/from where from >= luminance_floor *
+/// largest (neutrals, lights); elsewhere continuous, 1 when to = from, and at most
+/// (|to| + luminance_floor * largest + |from|)/(luminance_floor * largest). Black (largest = 0): 1.
+double luminance_ratio(double from, double to, double largest) noexcept;
+
+}  // namespace scotopic
