@@ -1,0 +1,55 @@
+// RGB spaces from their chromaticities: the exact matrices that colour configs only hold rounded.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernel/matrix3.h"
+
+namespace scotopic {
+
+/// CIE 1931 chromaticity.
+struct Xy {
+  double x = 0;
+  double y = 0;
+};
+
+struct Primaries {
+  Xy red, green, blue, white;
+};
+
+/// An RGB gamut by its short name, as options and file attributes know it.
+struct NamedPrimaries {
+  std::string_view name;   ///< rec709, rec2020, p3, ap1, ap0
+  std::string_view label;  ///< as the ACES configs call the linear space
+  Primaries primaries;
+};
+
+/// rec709 (ITU-R BT.709-6), rec2020 (ITU-R BT.2020-2), p3 (SMPTE EG 432-1, D65), ap1 (S-2014-004), ap0 (ST
+/// 2065-1).
+const std::vector<NamedPrimaries>& known_primaries();
+
+/// CIE XYZ with white Y = 1 from linear RGB, unadapted. The primaries must not lie on one line.
+Matrix3<double> xyz_from_rgb(const Primaries& primaries);
+
+/// Bradford transform (Lam 1985, as in ICC.1) that takes XYZ under white `from` to XYZ under white `to`.
+Matrix3<double> bradford(Xy from, Xy to);
+
+/// The same, adapted to D65 (x = .3127, y = .3290). RGB (1,1,1) gives Y = 1 to 1 ulp.
+Matrix3<double> xyz_d65_from_rgb(const Primaries& primaries);
+
+/// XYZ (D65) from the linear RGB of "rec709", "rec2020", "p3", "ap1" or "ap0"; nullopt for another name.
+std::optional<Matrix3<double>> gamut_xyz_matrix(std::string_view name);
+
+/// The known set whose chromaticities all lie within 1e-3 of these; nullptr if there is none.
+/// (Files hold them as float, often rounded to three or four digits.)
+const NamedPrimaries* match_primaries(const Primaries& primaries);
+
+/// The known set whose xyz_d65_from_rgb differs from `m` by no more than 1e-4 in any element; nullptr if
+/// none. (Blender's matrices use a white of four digits and so differ by 7e-5; the sets differ by more than
+/// 1e-2.)
+const NamedPrimaries* match_matrix(const Matrix3<double>& m);
+
+}  // namespace scotopic
