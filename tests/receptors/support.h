@@ -1,0 +1,38 @@
+// What several receptor tests share.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+namespace scotopic::test {
+
+/// Collects |measured - expected| as a multiple of each row's tolerance; prints the worst and where it is.
+class WorstError {
+ public:
+  void add(const std::string& where, double measured, double expected, double tolerance) {
+    const double ratio = std::abs(measured - expected) / tolerance;
+    ++rows_;
+    if (ratio <= worst_ && rows_ > 1) return;
+    worst_ = std::isnan(ratio) ? HUGE_VAL : ratio;
+    char text[200];
+    std::snprintf(text, sizeof text, ": %.9g, expected %.9g, off by %.3g of %.3g", measured, expected,
+                  std::abs(measured - expected), tolerance);
+    where_ = where + text;
+  }
+
+  void expect_within(const char* what) const {
+    std::printf("%s: worst of %d: %s\n", what, rows_, where_.c_str());
+    EXPECT_GT(rows_, 0);
+    EXPECT_LE(worst_, 1.0) << what << " " << where_;
+  }
+
+ private:
+  double worst_ = 0.0;
+  int rows_ = 0;
+  std::string where_;
+};
+
+}  // namespace scotopic::test
