@@ -5,5 +5,6 @@ find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(OpenEXR 3.1 REQUIRED)
 find_package(OpenImageIO 2.4 REQUIRED)
-# Debian puts this one outside the folders CMake searches by itself.
-find_package(OpenColorIO 2.1 REQUIRED PATHS /usr/share/cmake)
+# By pkg-config: Debian 12's CMake package of OpenColorIO names an include folder that does not exist.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(OpenColorIO REQUIRED IMPORTED_TARGET GLOBAL OpenColorIO>=2.1)
