@@ -10,7 +10,7 @@ constexpr Xy d65{0.3127, 0.3290};
 // The white of ST 2065-1: close to, but not, CIE D60.
 constexpr Xy aces_white{0.32168, 0.33767};
 constexpr double chromaticity_tolerance = 1e-3;
-constexpr double matrix_tolerance = 1e-4;
+constexpr double matrix_tolerance = 5e-4;
 
 Vec3<double> xyz_of_white(Xy white) { return {white.x / white.y, 1.0, (1.0 - white.x - white.y) / white.y}; }
 

@@ -47,8 +47,8 @@ std::optional<Matrix3<double>> gamut_xyz_matrix(std::string_view name);
 /// (Files hold them as float, often rounded to three or four digits.)
 const NamedPrimaries* match_primaries(const Primaries& primaries);
 
-/// The known set whose xyz_d65_from_rgb differs from `m` by no more than 1e-4 in any element; nullptr if
-/// none. (Blender's matrices use a white of four digits and so differ by 7e-5; the sets differ by more than
+/// The known set whose xyz_d65_from_rgb differs from `m` by no more than 5e-4 in any element; nullptr if
+/// none. (Blender's matrices use a white of four digits and so differ by 2.3e-4; the sets differ by more than
 /// 1e-2.)
 const NamedPrimaries* match_matrix(const Matrix3<double>& m);
 

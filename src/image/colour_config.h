@@ -1,0 +1,89 @@
+// The colour config in force, and the ways between its spaces and the one the operator works in.
+#pragma once
+
+#include <OpenColorIO/OpenColorIO.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "image/primaries.h"
+#include "kernel/matrix3.h"
+
+namespace scotopic {
+
+/// An RGB space: one of the config's, or linear light with the primaries that a file states.
+struct ColourSpace {
+  std::string name;
+  /// Set for linear light with stated primaries; then `name` is only for the reader.
+  std::optional<Matrix3<double>> xyz_from_rgb;
+};
+
+/// A conversion of planar RGB float rows, in place. Cheap to copy; share it between threads.
+/// Pixels are independent of each other: the result does not depend on how rows are cut.
+class RowConverter {
+ public:
+  RowConverter() = default;  ///< the identity
+  explicit RowConverter(const Matrix3<double>& matrix);
+  explicit RowConverter(OCIO_NAMESPACE::ConstCPUProcessorRcPtr processor);
+
+  bool identity() const noexcept { return !matrix_ && !processor_; }
+  void apply(float* r, float* g, float* b, std::size_t count) const;
+
+ private:
+  std::optional<Matrix3<double>> matrix_;
+  OCIO_NAMESPACE::ConstCPUProcessorRcPtr processor_;
+};
+
+/// Throws Error(ExitCode::config) whenever the config or one of its spaces is at fault.
+class ColourConfig {
+ public:
+  /// `file` if not empty, else the file $OCIO names, else the project's own config.
+  static ColourConfig in_force(const std::string& file);
+  static ColourConfig own();
+  static ColourConfig from_file(const std::string& file);
+
+  const OCIO_NAMESPACE::ConstConfigRcPtr& ocio() const noexcept { return config_; }
+  /// The config's file; empty for the project's own.
+  const std::string& file() const noexcept { return file_; }
+  /// The name of the space in role scene_linear: the one the operator works in.
+  const std::string& working_space() const noexcept { return working_space_; }
+  /// CIE XYZ (D65-adapted) from working RGB. Where OCIO's matrix is that of a known RGB space to 1e-4, the
+  /// exact one in double, so that RGB (1,1,1) has Y = 1 to 1 ulp.
+  const Matrix3<double>& xyz_from_working() const noexcept { return xyz_from_working_; }
+  /// rec709, ap1, ... if xyz_from_working() is that of a known space, else empty.
+  const std::string& working_gamut() const noexcept { return working_gamut_; }
+
+  /// The canonical name of a space, role or alias; for an unknown one, an error that lists close names.
+  std::string resolve(const std::string& name) const;
+  ColourSpace space(const std::string& name) const { return {resolve(name), std::nullopt}; }
+  bool has_space(const std::string& name) const;
+  /// What the config's rules say of a file. `integer` pixels that only the default rule matches are taken to
+  /// be display-encoded: role default_byte, where there is one.
+  ColourSpace space_of_file(const std::string& file, bool integer) const;
+  /// Every space, role and alias.
+  std::vector<std::string> names() const;
+  /// Whether pixels of both spaces mean the same.
+  bool same(const ColourSpace& a, const ColourSpace& b) const;
+  /// Whether values of the space are the encoded ones of IEC 61966-2-1, BT.709 primaries.
+  bool is_srgb(const ColourSpace& space) const;
+
+  RowConverter to_working(const ColourSpace& from) const;
+  RowConverter from_working(const ColourSpace& to) const;
+
+ private:
+  ColourConfig(OCIO_NAMESPACE::ConstConfigRcPtr config, std::string file);
+  void find_xyz();
+  std::optional<Matrix3<double>> linear_matrix(const std::string& from, const std::string& to) const;
+  OCIO_NAMESPACE::ConstCPUProcessorRcPtr processor(const std::string& from, const std::string& to) const;
+  [[noreturn]] void fail(const std::string& what) const;
+
+  OCIO_NAMESPACE::ConstConfigRcPtr config_;
+  std::string file_;
+  std::string working_space_;
+  Matrix3<double> xyz_from_working_ = identity3<double>();
+  std::string working_gamut_;
+};
+
+}  // namespace scotopic
