@@ -23,17 +23,23 @@ struct PixelRows {
   std::size_t count = 0;
 };
 
+/// Number type inside; planes are float either way. single: error <= 2e-6 of the pixel's largest component,
+/// in or out, over 1e-6 to 1e6 cd/m2 (tests/appearance); colours whose luminance is the rest of a cancellation are computed
+/// in double. dual: double inside, rounded once.
+enum class Precision { single, dual };
+
 /// The operator with everything that does not depend on the pixel worked out once. Immutable: share it
-/// between threads. Results do not depend on how pixels are grouped into calls.
+/// between threads. Results depend neither on how pixels are grouped into calls nor on the machine's vector
+/// instructions: no fused multiply-add, so every target gives the same bits.
 class AppearanceBatch {
  public:
-  explicit AppearanceBatch(const AppearanceParameters& parameters);
+  explicit AppearanceBatch(const AppearanceParameters& parameters, Precision precision = Precision::single);
   ~AppearanceBatch();
   AppearanceBatch(AppearanceBatch&&) noexcept;
   AppearanceBatch& operator=(AppearanceBatch&&) noexcept;
 
   /// Applies the operator in place. Where `touched` is given (count bytes), touched[i] says whether pixel i
-  /// was computed: 0 means it has the very bits it came in with (photopic, strength 0, or not finite).
+  /// was computed: 0 means it has the very bits it came in with (photopic, or not a finite number below 2^120).
   void apply(const PixelRows& rows, std::uint8_t* touched = nullptr) const noexcept;
 
  private:

@@ -2,6 +2,7 @@
 
 #include "adaptation/pupil.h"
 #include "receptors/receptor_space.h"
+#include "receptors/spectrum.h"
 
 namespace scotopic {
 namespace {
@@ -29,7 +30,7 @@ Matrix3<double> rgb_from_lms_cat02(const AppearanceParameters& p) {
   // CIE 159:2004, CIECAM02.
   constexpr Matrix3<double> cat02{
       {{{0.7328, 0.4296, -0.1624}, {-0.7036, 1.6975, 0.0061}, {0.0030, 0.0136, 0.9834}}}};
-  const double per_luminance_unit = maximum_luminous_efficacy / luminance_units_per_watt();
+  const double per_luminance_unit = photopic_efficacy / luminance_units_per_watt();
   return per_luminance_unit * (inverse(p.xyz_from_rgb) * inverse(cat02));
 }
 

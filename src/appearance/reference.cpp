@@ -10,12 +10,12 @@
 namespace scotopic {
 namespace {
 
-bool finite(const Vec3<double>& v) {
-  return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
-}
+bool operable(double x) { return std::abs(x) <= operable_limit; }
 
-bool finite(const ReferencePixel& p) {
-  return finite(p.rgb) && (!p.cones || finite(*p.cones)) && (!p.rod || std::isfinite(*p.rod));
+bool operable(const Vec3<double>& v) { return operable(v[0]) && operable(v[1]) && operable(v[2]); }
+
+bool operable(const ReferencePixel& p) {
+  return operable(p.rgb) && (!p.cones || operable(*p.cones)) && (!p.rod || operable(*p.rod));
 }
 
 Vec3<double> scaled(double s, const Vec3<double>& v) { return {s * v[0], s * v[1], s * v[2]}; }
@@ -46,11 +46,11 @@ double policy_luminance(const OperatorConstants& c, double photopic, double rod,
 }
 
 double luminance_ratio(double from, double to, double largest) noexcept {
-  const double floor = luminance_floor * largest;
-  const double e = std::max(0.0, floor - from);
-  if (!(from + e > 0)) return 1;
+  const double f = std::max(std::abs(from), luminance_floor * largest);
+  if (!(f > 0)) return 1;
+  const double u = from / f;
   constexpr double cap = 1e18;  // reached only by colours that are black but for a rod signal of their own
-  return std::min(cap, std::max(0.0, to + e) / (from + e));
+  return std::clamp(u * (to / f) + (1 - u * u), 0.0, cap);
 }
 
 AppearanceReference::AppearanceReference(const AppearanceParameters& parameters)
@@ -111,7 +111,7 @@ Vec3<double> AppearanceReference::safko(const ReferencePixel& pixel) const noexc
 }
 
 Vec3<double> AppearanceReference::operator()(const ReferencePixel& pixel) const noexcept {
-  if (!finite(pixel)) return pixel.rgb;
+  if (!operable(pixel)) return pixel.rgb;
   const auto& p = c_.parameters;
   if (p.model == Model::safko2019) return safko(pixel);
   const double y = dot(c_.luminance_from_rgb, pixel.rgb);

@@ -14,8 +14,8 @@ struct ReferencePixel {
   std::optional<double> rod{};          ///< likewise; absent: estimated from rgb
 };
 
-/// Any rgb is accepted; a non-finite component (of any signal given) makes the pixel pass unchanged. Continuous
-/// (C0) in rgb and in La. Black stays black. What La >= 5 cd/m2 or Lloc >= 5 cd/m2 leaves alone is returned
+/// Any rgb is accepted; a component (of any signal given) that is not finite, or beyond operable_limit, makes the
+/// pixel pass unchanged. Else continuous (C0) in rgb and in La. Black stays black. What La >= 5 cd/m2 or Lloc >= 5 cd/m2 leaves alone is returned
 /// bit for bit. Error against exact arithmetic: a few 1e-15 of the pixel's largest component.
 class AppearanceReference {
  public:
@@ -46,10 +46,10 @@ double rod_signal_from_rgb(const OperatorConstants& constants, const Vec3<double
 double policy_luminance(const OperatorConstants& constants, double photopic, double rod, double m) noexcept;
 
 /// Factor that takes a colour of luminance `from` to `to` at constant chromaticity:
-///   s = max(0, to + e)/(from + e),  e = max(0, luminance_floor * largest - from),
-/// largest: the greatest |cone signal| relative to white's. Exactly to/from where from >= luminance_floor *
-/// largest (neutrals, lights); elsewhere continuous, 1 when to = from, and at most
-/// (|to| + luminance_floor * largest + |from|)/(luminance_floor * largest). Black (largest = 0): 1.
+///   max(0, u to/f + (1 - u^2)),  f = max(|from|, luminance_floor * largest),  u = from/f,
+/// largest: the greatest |cone signal| relative to white's. That is to/from wherever |from| is at least that floor
+/// (neutrals, lights); below, continuous, 1 when to = from, and at most |to|/(luminance_floor * largest) + 1.
+/// A luminance that would change sign becomes 0. Black (largest = 0): 1.
 double luminance_ratio(double from, double to, double largest) noexcept;
 
 }  // namespace scotopic

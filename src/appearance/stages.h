@@ -15,7 +15,7 @@ struct Stage {
 };
 
 inline constexpr std::array<Stage, 6> stages = {{
-    {"receptors", "RGB, XYZ or spectrum", "q = (L, M, S), r", "", "a component is not finite"},
+    {"receptors", "RGB, XYZ or spectrum", "q = (L, M, S), r", "", "a component is not finite, or beyond 2^120"},
     {"weight", "Y, La", "Lloc = La + max(0, Y), w = strength (1 - m(Lloc))", "", "Lloc >= 5 cd/m2"},
     {"shift", "q, r, w", "RGB + RGB_from_LMS w Δq", "shift", "w = 0"},
     {"projection", "RGB", "the nearest colour, in LMS, inside the gamut", "shift", "inside the gamut"},
@@ -25,5 +25,8 @@ inline constexpr std::array<Stage, 6> stages = {{
 
 /// From here on cones see alone (cd/m2): MES2 has m = 1 and the chroma factor is 1, so nothing is computed.
 inline constexpr double photopic_luminance = 5.0;
+
+/// A pixel with a component of larger magnitude (or none: NaN) passes unchanged: float sums would overflow.
+inline constexpr double operable_limit = 0x1p120;
 
 }  // namespace scotopic

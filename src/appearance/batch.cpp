@@ -1,0 +1,188 @@
+#include "appearance/batch.h"
+
+#include <cstring>
+#include <optional>
+#include <type_traits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "appearance/batch.cpp"
+#include <hwy/foreach_target.h>
+// foreach_target first: it includes this file once per target.
+#include <hwy/highway.h>
+
+#include "appearance/batch_constants.h"
+#include "appearance/batch_pixels-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace scotopic::HWY_NAMESPACE {
+
+// Planes are float; D may be double.
+template <class D>
+struct Planes {
+  using Narrow = hn::Rebind<float, D>;
+  using V = hn::Vec<D>;
+
+  static V load(D d, const float* from) {
+    if constexpr (sizeof(hn::TFromD<D>) == sizeof(float)) return hn::LoadU(d, from);
+    else return hn::PromoteTo(d, hn::LoadU(Narrow(), from));
+  }
+  static void store(D d, V v, float* to) {
+    if constexpr (sizeof(hn::TFromD<D>) == sizeof(float)) hn::StoreU(v, d, to);
+    else hn::StoreU(hn::DemoteTo(Narrow(), v), Narrow(), to);
+  }
+};
+
+template <class D>
+auto load_pixels(D d, const PixelRows& rows, std::size_t at) {
+  const auto load = [&](const float* plane) { return plane ? Planes<D>::load(d, plane + at) : hn::Zero(d); };
+  return PixelVector<hn::Vec<D>>{{load(rows.r), load(rows.g), load(rows.b)},
+                                 {load(rows.cone_l), load(rows.cone_m), load(rows.cone_s)},
+                                 load(rows.rod),
+                                 rows.cone_l != nullptr,
+                                 rows.rod != nullptr};
+}
+
+// A vector's worth of results, and a bit per lane.
+struct Lanes {
+  HWY_ALIGN float r[HWY_MAX_BYTES / sizeof(float)], g[HWY_MAX_BYTES / sizeof(float)],
+      b[HWY_MAX_BYTES / sizeof(float)];
+  void copy(std::size_t lane, const PixelRows& rows, std::size_t to) const {
+    rows.r[to] = r[lane], rows.g[to] = g[lane], rows.b[to] = b[lane];
+  }
+};
+
+template <class D>
+std::uint64_t lane_bits(D d, hn::Mask<D> mask) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(d, mask, bytes);
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, bytes, sizeof bits);
+  return bits;
+}
+
+// The constants in the type that pixels are computed in, and in double for those that need it.
+template <typename T>
+struct Operators {
+  PixelOperator<hn::ScalableTag<T>> main;
+  PixelOperator<hn::ScalableTag<double>> exact;
+};
+
+// Computes in double the pixels at `at` that `bits` names; `lanes` pixels may be read.
+void apply_exactly(const PixelOperator<hn::ScalableTag<double>>& op, const PixelRows& rows, std::size_t at,
+                   std::size_t lanes, std::uint64_t bits) {
+  const hn::ScalableTag<double> d;
+  Lanes out;
+  for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
+    auto p = load_pixels(d, rows, at + i);
+    auto ignored = hn::MaskFromVec(hn::Zero(d));
+    op(p, ignored);
+    Planes<hn::ScalableTag<double>>::store(d, p.rgb.x, out.r);
+    Planes<hn::ScalableTag<double>>::store(d, p.rgb.y, out.g);
+    Planes<hn::ScalableTag<double>>::store(d, p.rgb.z, out.b);
+    for (std::size_t k = 0; k < hn::Lanes(d); ++k)
+      if (bits >> (i + k) & 1u) out.copy(k, rows, at + i + k);
+  }
+}
+
+// One vector of pixels at `at`. Pixels that are not touched keep their bits: they are not stored.
+template <typename T>
+void apply_vector(const Operators<T>& op, const PixelRows& rows, std::size_t at, std::uint8_t* touched) {
+  using D = hn::ScalableTag<T>;
+  const D d;
+  const std::size_t lanes = hn::Lanes(d);
+  auto p = load_pixels(d, rows, at);
+  auto doubtful = hn::MaskFromVec(hn::Zero(d));
+  const auto active = op.main(p, doubtful);
+  const std::uint64_t active_bits = lane_bits(d, active);
+  if (touched)
+    for (std::size_t i = 0; i < lanes; ++i) touched[at + i] = active_bits >> i & 1u;
+  if (active_bits == 0) return;
+  const std::uint64_t exact_bits = std::is_same_v<T, double> ? 0 : lane_bits(d, doubtful);
+  if (hn::AllTrue(d, active) && exact_bits == 0) {
+    Planes<D>::store(d, p.rgb.x, rows.r + at);
+    Planes<D>::store(d, p.rgb.y, rows.g + at);
+    Planes<D>::store(d, p.rgb.z, rows.b + at);
+    return;
+  }
+  if (exact_bits) apply_exactly(op.exact, rows, at, lanes, exact_bits);
+  Lanes out;
+  Planes<D>::store(d, p.rgb.x, out.r);
+  Planes<D>::store(d, p.rgb.y, out.g);
+  Planes<D>::store(d, p.rgb.z, out.b);
+  for (std::size_t i = 0; i < lanes; ++i)
+    if ((active_bits & ~exact_bits) >> i & 1u) out.copy(i, rows, at + i);
+}
+
+// The last pixels, fewer than a vector: through a padded copy, by the same instructions.
+template <typename T>
+void apply_tail(const Operators<T>& op, const PixelRows& rows, std::size_t at, std::uint8_t* touched) {
+  constexpr std::size_t most = HWY_MAX_BYTES / sizeof(float);
+  float copy[7][most] = {};
+  std::uint8_t touched_copy[most] = {};
+  const std::size_t count = rows.count - at;
+  const auto fill = [&](const float* plane, float* to) -> float* {
+    if (!plane) return nullptr;
+    std::copy_n(plane + at, count, to);
+    return to;
+  };
+  const PixelRows padded = {fill(rows.r, copy[0]),      fill(rows.g, copy[1]),      fill(rows.b, copy[2]),
+                            fill(rows.cone_l, copy[3]), fill(rows.cone_m, copy[4]), fill(rows.cone_s, copy[5]),
+                            fill(rows.rod, copy[6]),    most};
+  apply_vector(op, padded, 0, touched_copy);
+  std::copy_n(copy[0], count, rows.r + at);
+  std::copy_n(copy[1], count, rows.g + at);
+  std::copy_n(copy[2], count, rows.b + at);
+  if (touched) std::copy_n(touched_copy, count, touched + at);
+}
+
+template <typename T>
+void apply_rows(const BatchConstants<T>& main, const BatchConstants<double>& exact, const PixelRows& rows,
+                std::uint8_t* touched) {
+  const Operators<T> op{{hn::ScalableTag<T>(), main}, {hn::ScalableTag<double>(), exact}};
+  const std::size_t lanes = hn::Lanes(hn::ScalableTag<T>());
+  std::size_t at = 0;
+  for (; at + lanes <= rows.count; at += lanes) apply_vector(op, rows, at, touched);
+  if (at < rows.count) apply_tail(op, rows, at, touched);
+}
+
+void apply_single(const BatchConstants<float>& main, const BatchConstants<double>& exact, const PixelRows& rows,
+                  std::uint8_t* touched) {
+  apply_rows(main, exact, rows, touched);
+}
+void apply_dual(const BatchConstants<double>& exact, const PixelRows& rows, std::uint8_t* touched) {
+  apply_rows(exact, exact, rows, touched);
+}
+
+}  // namespace scotopic::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace scotopic {
+
+HWY_EXPORT(apply_single);
+HWY_EXPORT(apply_dual);
+
+struct AppearanceBatch::Constants {
+  BatchConstants<double> exact;
+  std::optional<BatchConstants<float>> single;
+};
+
+AppearanceBatch::AppearanceBatch(const AppearanceParameters& parameters, Precision precision) {
+  const OperatorConstants constants(parameters);
+  auto made = std::make_unique<Constants>(Constants{BatchConstants<double>(constants), {}});
+  if (precision == Precision::single) made->single.emplace(constants);
+  constants_ = std::move(made);
+}
+
+AppearanceBatch::~AppearanceBatch() = default;
+AppearanceBatch::AppearanceBatch(AppearanceBatch&&) noexcept = default;
+AppearanceBatch& AppearanceBatch::operator=(AppearanceBatch&&) noexcept = default;
+
+void AppearanceBatch::apply(const PixelRows& rows, std::uint8_t* touched) const noexcept {
+  const Constants& c = *constants_;
+  if (c.single) HWY_DYNAMIC_DISPATCH(apply_single)(*c.single, c.exact, rows, touched);
+  else HWY_DYNAMIC_DISPATCH(apply_dual)(c.exact, rows, touched);
+}
+
+}  // namespace scotopic
+#endif  // HWY_ONCE

@@ -1,0 +1,136 @@
+// OperatorConstants as the vector code wants them: products worked out in double, then rounded once.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "adaptation/mesopic.h"
+#include "appearance/constants.h"
+#include "appearance/mesopic_fit.h"
+#include "appearance/projection.h"
+#include "receptors/receptor_space.h"
+
+namespace scotopic {
+
+/// Number types of the batch and what each needs for its own last digit.
+template <typename T>
+struct BatchPrecision;
+template <>
+struct BatchPrecision<float> {
+  static constexpr std::size_t mesopic_degree = 7;
+  static constexpr std::size_t log_terms = 5;
+};
+template <>
+struct BatchPrecision<double> {
+  static constexpr std::size_t mesopic_degree = 17;
+  static constexpr std::size_t log_terms = 12;
+};
+
+template <typename T>
+struct BatchConstants {
+  static constexpr std::size_t mesopic_terms = BatchPrecision<T>::mesopic_degree + 1;
+  static constexpr std::size_t log_terms = BatchPrecision<T>::log_terms;
+
+  explicit BatchConstants(const OperatorConstants& c);
+
+  // What is on.
+  bool safko, local, mesopic_policy, quadratic_rods, do_shift, project, gamut_is_rgb, do_luminance, do_chroma;
+
+  // Weight.
+  T unit, adaptation, scotopic_limit, photopic_limit;
+  T inverse_high, per_octave;                 // v = -log2(L * inverse_high) * per_octave
+  std::array<T, mesopic_terms> mesopic;       // (1 - m)/v as a polynomial in v
+  std::array<T, log_terms> log_series;        // log2 f = s sum_k log_series[k] s^2k, s = (f-1)/(f+1)
+
+  // Receptors and kernel.
+  Vec3<T> y_row, y_magnitude;                 // luminance; its coefficients' magnitudes
+  Matrix3<T> lms_from_rgb, rgb_from_lms, xyz_from_rgb;
+  Vec3<T> rod_row;                            // rods, linear estimate
+  T rod_floor;                                // smallest rod signal, times Y
+  T rod_sp;                                   // rod signal per unit of the quadratic estimate
+  std::array<T, 6> rod_quadratic;
+  Vec3<T> kappa, gain;                        // gain per image unit
+  Matrix3<T> rgb_shift;                       // Δrgb = rgb_shift (g r)
+  Matrix3<T> lms_shift;                       // Δq = lms_shift (g r)
+  T shift;
+
+  // Projection.
+  Matrix3<T> gamut_from_rgb, rgb_from_gamut;
+  std::array<typename GamutProjection<T>::ActiveSet, GamutProjection<T>::active_sets> active;
+
+  // Luminance and chroma.
+  T rods_weight;                              // rho C
+  T inverse_rod_white, luminance, luminance_goal, floor;
+  Vec3<T> inverse_cone_white;
+  T chroma, chroma_at_5, chroma_half;
+};
+
+template <typename T>
+Vec3<T> rounded(const Vec3<double>& v) {
+  return {static_cast<T>(v[0]), static_cast<T>(v[1]), static_cast<T>(v[2])};
+}
+
+template <typename T>
+BatchConstants<T>::BatchConstants(const OperatorConstants& c) {
+  const AppearanceParameters& p = c.parameters;
+  const auto t = [](double x) { return static_cast<T>(x); };
+  safko = p.model == Model::safko2019;
+  local = p.weight == Weight::local;
+  mesopic_policy = p.luminance == LuminancePolicy::mesopic;
+  quadratic_rods = p.rods == RodEstimate::quadratic;
+  do_shift = c.shift > 0;
+  project = c.project;
+  gamut_is_rgb = c.gamut_is_rgb;
+  do_luminance = c.luminance > 0;
+  do_chroma = c.chroma > 0;
+
+  unit = t(p.white_luminance);
+  adaptation = t(p.adaptation);
+  scotopic_limit = t(mesopic_scotopic_limit());
+  photopic_limit = t(mesopic_photopic_limit());
+  const MesopicFit<BatchPrecision<T>::mesopic_degree> fit;
+  inverse_high = t(1 / fit.high);
+  per_octave = t(-1 / fit.octaves);
+  for (std::size_t k = 0; k < mesopic_terms; ++k) mesopic[k] = t(fit.coefficient[k]);
+  // log2((1+s)/(1-s)) = 2/ln 2 (s + s^3/3 + s^5/5 + ...).
+  for (std::size_t k = 0; k < log_terms; ++k)
+    log_series[k] = t(2 / std::numbers::ln2 / static_cast<double>(2 * k + 1));
+
+  y_row = rounded<T>(c.luminance_from_rgb);
+  for (std::size_t i = 0; i < 3; ++i) y_magnitude[i] = std::abs(y_row[i]);
+  lms_from_rgb = c.lms_from_rgb.to<T>();
+  xyz_from_rgb = p.xyz_from_rgb.to<T>();
+  const double per_scotopic = rod_signal_per_scotopic_luminance();
+  const double sp = p.sp_ratio / sp_ratio_d65 * per_scotopic;
+  const Vec3<double> linear = transpose(p.xyz_from_rgb) * scotopic_linear_from_xyz;
+  rod_row = rounded<T>({sp * linear[0], sp * linear[1], sp * linear[2]});
+  rod_floor = t(per_scotopic * sp_ratio_floor);
+  rod_sp = t(sp);
+  for (std::size_t k = 0; k < 6; ++k) rod_quadratic[k] = t(scotopic_quadratic_from_xy[k]);
+  kappa = rounded<T>(c.kernel.kappa());
+  for (std::size_t i = 0; i < 3; ++i) gain[i] = t(c.kernel.gain()[i] * p.white_luminance);
+  lms_shift = c.kernel.cone_shift().to<T>();
+  const Matrix3<double> back = safko ? rgb_from_lms_cat02(p) : c.rgb_from_lms;
+  rgb_shift = (back * c.kernel.cone_shift()).to<T>();
+  shift = t(c.shift);
+  rgb_from_lms = back.to<T>();
+
+  gamut_from_rgb = c.gamut_from_rgb.to<T>();
+  rgb_from_gamut = c.rgb_from_gamut.to<T>();
+  if (project) {
+    const GamutProjection<T> projection(lms_from_xyz() * *p.xyz_from_gamut);
+    for (std::size_t i = 0; i < active.size(); ++i) active[i] = projection.set(i);
+  }
+
+  rods_weight = t(sp_ratio_d65 * mes2_efficacy_ratio);
+  inverse_rod_white = t(1 / c.rod_white);
+  luminance = t(c.luminance);
+  luminance_goal = t(c.luminance_goal);
+  floor = t(luminance_floor);
+  for (std::size_t i = 0; i < 3; ++i) inverse_cone_white[i] = t(1 / c.cone_white[i]);
+  chroma = t(c.chroma);
+  chroma_at_5 = t((5 + chroma_half_luminance) / 5);
+  chroma_half = t(chroma_half_luminance);
+}
+
+}  // namespace scotopic
