@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "receptors/rods.h"
+#include "receptors/tables.h"
 
 namespace scotopic {
 namespace {
@@ -21,6 +22,12 @@ constexpr std::array illuminants = {
     NamedIlluminant{"led4000", 1.72, "phosphor-converted LED, about 4000 K"},
 };
 
+constexpr double moon_kelvin = 4490.0;
+
+Spectrum copy_of(const TabulatedCurve& curve) {
+  return {curve.first_nm, curve.step_nm, {curve.values.begin(), curve.values.end()}};
+}
+
 }  // namespace
 
 std::span<const NamedIlluminant> named_illuminants() { return illuminants; }
@@ -32,6 +39,18 @@ std::string illuminant_names() {
     names += illuminant.name;
   }
   return names;
+}
+
+std::optional<Spectrum> illuminant_spectrum(std::string_view name) {
+  if (name == "d65") return copy_of(tables::illuminant_cie_d65_d65);
+  // Constant wherever a sensitivity is not 0.
+  if (name == "e") return Spectrum{300.0, 600.0, {1.0, 1.0}};
+  if (name == "moon") return cie_daylight(moon_kelvin);
+  if (name == "a") return copy_of(tables::illuminant_cie_a_a);
+  if (name == "hps") return copy_of(tables::lamps_houser_2013_hps);
+  if (name == "led3000") return copy_of(tables::lamps_houser_2013_led3000);
+  if (name == "led4000") return copy_of(tables::lamps_houser_2013_led4000);
+  return std::nullopt;
 }
 
 std::optional<double> parse_sp_ratio(std::string_view name_or_number) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "receptors/spectrum.h"
+
 namespace scotopic {
 
 /// Scotopic over photopic luminance of a kind of light; what it is.
@@ -22,5 +24,9 @@ std::string illuminant_names();
 
 /// S/P ratio from a name (lower case) or a positive finite decimal number; nullopt for anything else.
 std::optional<double> parse_sp_ratio(std::string_view name_or_number);
+
+/// Relative spectral power of a named illuminant: for reflectances, which need more than a ratio. Moonlight
+/// is CIE daylight of 4490 K (S/P 2.03); the lamps are single products of their kind (S/P .65, 1.33, 1.73).
+std::optional<Spectrum> illuminant_spectrum(std::string_view name);
 
 }  // namespace scotopic

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace scotopic {
 
@@ -40,6 +41,19 @@ struct TabulatedCurve {
     return values[index] + fraction * (values[index + 1] - values[index]);
   }
 };
+
+/// A curve that owns its values.
+struct Spectrum {
+  double first_nm = 0.0;
+  double step_nm = 1.0;
+  std::vector<double> values;
+
+  TabulatedCurve curve() const { return {first_nm, step_nm, values}; }
+};
+
+/// Daylight of a correlated colour temperature of 4000 to 25000 K, relative to 100 at 560 nm: CIE
+/// 015:2018, 4.1.2.
+Spectrum cie_daylight(double kelvin);
 
 /// Integral of spectrum times sensitivity over wavelength, nm: the sum over whole nanometres, as CIE 015
 /// asks.

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "receptors/rods.h"
+#include "receptors/support.h"
+#include "receptors/tables.h"
 
 namespace scotopic {
 namespace {
@@ -32,6 +34,27 @@ TEST(Illuminant, anything_else_is_refused) {
   for (const char* text :
        {"", " ", "0", "-1", "nan", "inf", "1e999", "2.4 ", "2,4", "D65", "d6", "d655", "1x", "0x1"})
     EXPECT_FALSE(parse_sp_ratio(text).has_value()) << '"' << text << '"';
+}
+
+TEST(Illuminant, every_name_has_a_spectrum_of_its_ratio) {
+  test::WorstError worst;
+  for (const NamedIlluminant& illuminant : named_illuminants()) {
+    const auto spectrum = illuminant_spectrum(illuminant.name);
+    ASSERT_TRUE(spectrum.has_value()) << illuminant.name;
+    worst.add(std::string(illuminant.name), sp_ratio(spectrum->curve()), illuminant.sp_ratio,
+              0.01 * illuminant.sp_ratio);
+  }
+  worst.expect_within("S/P of the spectrum against the named ratio");
+  EXPECT_FALSE(illuminant_spectrum("candle").has_value());
+}
+
+TEST(Illuminant, daylight_of_6504_kelvin_is_d65) {
+  // CIE 015 rounds M1 and M2 to three decimals; D65 is 6504 K on today's scale of temperature.
+  const Spectrum daylight = cie_daylight(6504.0);
+  test::WorstError worst;
+  for (double nm = 380; nm <= 780; nm += 5)
+    worst.add(std::to_string(nm), daylight.curve().at(nm), tables::illuminant_cie_d65_d65.at(nm), 0.15);
+  worst.expect_within("D65 from its components");
 }
 
 TEST(Illuminant, default_leaves_the_rod_estimate_untouched) {

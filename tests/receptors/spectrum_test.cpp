@@ -42,22 +42,9 @@ TEST(Spectrum, one_watt_at_the_peaks_gives_the_efficacies) {
   EXPECT_NEAR(scotopic_luminance({555.0, 1.0, one}).cdm2, 683.0, 683.0 * 0.002);
 }
 
-// CIE daylight of chromaticity (x, y) from its components: CIE 015:2018, eq. 4.9 and 4.10.
-std::vector<double> daylight(double x, double y) {
-  const double denominator = 0.0241 + 0.2562 * x - 0.7341 * y;
-  const double m1 = (-1.3515 - 1.7703 * x + 5.9114 * y) / denominator;
-  const double m2 = (0.0300 - 31.4424 * x + 30.0717 * y) / denominator;
-  std::vector<double> power;
-  for (std::size_t i = 0; i < tables::daylight_components_cie_s0.values.size(); ++i)
-    power.push_back(tables::daylight_components_cie_s0.values[i] +
-                    m1 * tables::daylight_components_cie_s1.values[i] +
-                    m2 * tables::daylight_components_cie_s2.values[i]);
-  return power;
-}
-
 TEST(Spectrum, sp_ratios_of_standard_illuminants_are_the_published_ones) {
   const std::vector<double> equal_energy(81, 1.0);
-  const std::vector<double> d50 = daylight(0.34567, 0.35850);
+  const Spectrum d50 = cie_daylight(5003.0);
   struct Row {
     const char* name;
     TabulatedCurve spectrum;
@@ -66,7 +53,7 @@ TEST(Spectrum, sp_ratios_of_standard_illuminants_are_the_published_ones) {
   test::WorstError worst;
   for (const Row& row :
        {Row{"E", {380, 5, equal_energy}, 2.2612}, Row{"A", tables::illuminant_cie_a_a, 1.4123},
-        Row{"D50", {380, 5, d50}, 2.1599}, Row{"D65", tables::illuminant_cie_d65_d65, 2.4648}})
+        Row{"D50", d50.curve(), 2.1599}, Row{"D65", tables::illuminant_cie_d65_d65, 2.4648}})
     worst.add(row.name, sp_ratio(row.spectrum), row.expected, 1e-3);
   worst.expect_within("S/P ratio");
 }
