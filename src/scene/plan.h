@@ -1,0 +1,55 @@
+// Which effects a scene calls for, and why: a pure function of what was measured and what was asked.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "appearance/parameters.h"
+#include "scene/scene_statistics.h"
+
+namespace scotopic {
+
+/// Luminances that differ by this share are .05 dE00 apart at mid-grey (dL*/L = 38.7 Y^1/3 at Y = .184: 22 per
+/// unit). Mesopic luminance is skipped only where no pixel's S/P ratio is further from white's: at 5 %, as
+/// sometimes proposed, skipping can be seen (.65 dE00 for a bluish grey; tests/scene).
+inline constexpr double sp_tolerance = 0.002;
+
+struct PlanRequest {
+  AppearanceParameters parameters;  ///< La and unit resolved; strengths as asked, 0 = switched off by the user
+  bool acuity = false;              ///< asked for
+  std::optional<double> pixels_per_degree;
+};
+
+struct EffectDecision {
+  std::string_view effect;  ///< shift, luminance, chroma, acuity; glare, noise, time
+  bool simulated = true;    ///< this program can do it
+  bool asked = false;
+  bool needed = false;      ///< the scene calls for it
+  double number = 0;        ///< what decided, in `unit`
+  double threshold = 0;
+  std::string_view unit{};
+  std::string reason{};     ///< one sentence holding number and threshold
+  double share = 0;         ///< of pixels that it would touch, 0 to 1
+  double difference = 0;    ///< largest dE00, exposed to mid-grey, it makes over the samples
+
+  bool runs() const noexcept { return simulated && asked && needed; }
+};
+
+struct ScenePlan {
+  std::vector<EffectDecision> effects;
+  AppearanceParameters parameters;  ///< of the run: effects that are not needed are off
+  bool acuity = false;              ///< the acuity filter runs
+
+  const EffectDecision& effect(std::string_view name) const;
+  /// Nothing to compute: the picture is returned as it came.
+  bool nothing() const noexcept;
+};
+
+/// Decides. Without statistics the decision rests on La alone, and pixels are skipped one by one where they are.
+/// Skipping shift, luminance and chroma as planned changes no bit where all of Lloc >= 5 cd/m2; skipping mesopic
+/// luminance alone (S/P within sp_tolerance) changes a colour by at most .05 dE00.
+ScenePlan plan_scene(const PlanRequest& request, const SceneStatistics* statistics);
+
+}  // namespace scotopic
