@@ -1,0 +1,26 @@
+// TIFF, PNG, JPEG and HDR files through OpenImageIO.
+#pragma once
+
+#include <OpenImageIO/imageio.h>
+
+#include "image/pixel_source.h"
+
+namespace scotopic {
+
+class OiioSource : public PixelSource {
+ public:
+  OiioSource(const std::string& file, const std::string& format, const Limits& limits);
+
+  void read(std::size_t index, int y0, int rows, Band& band) override;
+  std::vector<Attribute> attributes(std::size_t index) const override;
+
+  const OIIO::ImageSpec& spec(std::size_t index) const { return specs_[index]; }
+
+ private:
+  void add_picture(int page, const OIIO::ImageSpec& spec);
+
+  std::unique_ptr<OIIO::ImageInput> input_;
+  std::vector<OIIO::ImageSpec> specs_;  // one for each picture
+};
+
+}  // namespace scotopic

@@ -1,0 +1,55 @@
+// Where pixels go: an OpenEXR, TIFF or PNG file that appears when all of it is written.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "image/output_file.h"
+#include "image/pixel_source.h"
+
+namespace scotopic {
+
+/// How one picture of the source is written.
+struct OutputPicture {
+  std::size_t source = 0;  ///< index of the picture it is made from
+  Picture picture;         ///< with the channels it will have
+  bool copy = false;       ///< compressed chunks as they are (OpenEXR to OpenEXR)
+  /// Set over whatever the source says: what was applied.
+  std::vector<Attribute> stamps;
+  /// Colour values changed their space: an ICC profile or chromaticities of the source no longer hold.
+  bool new_space = false;
+  std::optional<Primaries> primaries;  ///< of the new space, where it has such
+  bool srgb = false;                   ///< colour values are encoded with sRGB's curve
+};
+
+/// Errors are Error(ExitCode::output). One thread at a time.
+class PixelSink {
+ public:
+  virtual ~PixelSink() = default;
+  /// Whether write() wants the channels of a pixel side by side, all of one type.
+  virtual bool interleaved() const = 0;
+  /// Rows of output picture `index`, channels in its order; bands in the order of the source's.
+  virtual void write(std::size_t index, const Band& band) = 0;
+  /// An output picture with `copy` set, all of it.
+  virtual void copy(std::size_t index) = 0;
+  /// Ends the file and puts it in place.
+  virtual void finish() = 0;
+};
+
+/// openexr, tiff or png by the name's extension; Error(usage) for any other.
+std::string output_format(const std::string& path);
+
+/// Types of colour channels that the format can hold.
+const std::vector<PixelType>& pixel_types_of(const std::string& format);
+
+/// `source` and `file` must outlive the sink. TIFF: one page for each picture; PNG: exactly one picture.
+std::unique_ptr<PixelSink> open_sink(const std::string& format, OutputFile& file, PixelSource& source,
+                                     const std::vector<OutputPicture>& pictures);
+
+std::unique_ptr<PixelSink> open_exr_sink(OutputFile& file, PixelSource& source,
+                                         const std::vector<OutputPicture>& pictures);
+std::unique_ptr<PixelSink> open_oiio_sink(const std::string& format, OutputFile& file, PixelSource& source,
+                                          const std::vector<OutputPicture>& pictures);
+
+}  // namespace scotopic

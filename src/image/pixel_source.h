@@ -1,0 +1,62 @@
+// Where pixels come from: any number of pictures, read in bands, so that memory does not grow with the
+// height.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "image/picture.h"
+
+namespace scotopic {
+
+/// Checked against the header before anything is allocated. Exceeding one is Error(ExitCode::limit).
+struct Limits {
+  std::int64_t side = 262144;
+  std::int64_t pixels = std::int64_t{1} << 32;
+  std::int64_t channels = 4096;
+  std::int64_t band_bytes = std::int64_t{2} << 30;  ///< of one band, all channels
+};
+
+/// A file being read. Errors are Error(ExitCode::input) with the file's name. One thread at a time.
+class PixelSource {
+ public:
+  virtual ~PixelSource() = default;
+
+  const std::string& file() const noexcept { return file_; }
+  /// openexr, tiff, png, hdr, jpeg.
+  const std::string& format() const noexcept { return format_; }
+  const std::vector<Picture>& pictures() const noexcept { return pictures_; }
+
+  /// Rows y0 <= y < y0 + rows of picture `index` (rows in steps of chunk_rows from data.y0, or to the end).
+  virtual void read(std::size_t index, int y0, int rows, Band& band) = 0;
+  /// Where the light of a picture is; see find_colour().
+  virtual ColourChannels colour(std::size_t index, const std::string& layer) const {
+    return find_colour(pictures_[index], layer, file_);
+  }
+  /// What other formats can hold of a picture's metadata.
+  virtual std::vector<Attribute> attributes(std::size_t index) const = 0;
+
+ protected:
+  PixelSource(std::string file, std::string format) : file_(std::move(file)), format_(std::move(format)) {}
+  [[noreturn]] void fail(const std::string& what) const;
+  /// Throws for the first limit that a picture exceeds.
+  void check_limits(const Limits& limits) const;
+
+  std::vector<Picture> pictures_;
+
+ private:
+  std::string file_;
+  std::string format_;
+};
+
+/// Opens by content, not by name: OpenEXR (scanlines, tiles, parts), TIFF, PNG, JPEG, Radiance HDR; anything
+/// else is refused. The pixels are not looked at.
+std::unique_ptr<PixelSource> open_source(const std::string& file, const Limits& limits);
+
+std::unique_ptr<PixelSource> open_exr_source(const std::string& file, const Limits& limits);
+std::unique_ptr<PixelSource> open_oiio_source(const std::string& file, const std::string& format,
+                                              const Limits& limits);
+
+}  // namespace scotopic
