@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Writes src/receptors/tables/*.csv from Debian's psychtoolbox-3-common.
+"""Writes src/receptors/tables/*.csv and tests/data/reflectances_*.csv from Debian's psychtoolbox-3-common.
 
 Needs python3-scipy, only to read the .mat files; building the project does not run this. The output is a
 function of the package's files alone: the same bytes every time.
 
-usage: convert_receptor_data.py [--source DIR] [--output DIR]
+usage: convert_receptor_data.py [--source DIR] [--output DIR] [--reflectances DIR]
 """
 
 import argparse
@@ -48,6 +48,20 @@ TABLES = {
         ("NIST 9: HPS", "NIST 125: Cree F2", "Wei and Houser, 2012: NGL-78")),
 }
 
+# file name: what it is, source, .mat file, first and last wavelength measured, step to keep
+REFLECTANCES = {
+    "reflectances_macbeth.csv": (
+        "Macbeth ColorChecker, 24 patches in order", "Psychtoolbox", "sur_macbeth", (390, 730, 5)),
+    "reflectances_munsell.csv": (
+        "462 Munsell papers", "Nickerson (1957), via Psychtoolbox", "sur_nickerson", (400, 700, 10)),
+    "reflectances_vrhel.csv": (
+        "170 natural and man-made objects",
+        "Vrhel, Gershon, Iwan, Color Research and Application 19, 4-9 (1994)", "sur_vrhel", (390, 730, 10)),
+    "reflectances_krinov.csv": (
+        "191 natural formations, measured outdoors",
+        "Krinov, Spectral reflectance properties of natural formations (1947)", "sur_krinov", (400, 650, 10)),
+}
+
 
 def curves(data, matrix, sampling, labels, wanted):
     """The sampled curves as rows of floats, whichever way round the file keeps them."""
@@ -81,15 +95,40 @@ def table_text(spec, source):
     return "\n".join(lines) + "\n"
 
 
+def reflectance_text(spec, source):
+    import scipy.io
+
+    title, publication, stem, (first, last, step) = spec
+    data = scipy.io.loadmat(f"{source}/{stem}.mat")
+    sampling = stem.replace("sur_", "S_", 1)
+    rows = curves(data, stem, sampling, None, None)
+    file_first, file_step, _ = (int(value) for value in data[sampling][0])
+    lines = [f"# {title}", f"# {publication}", f"# {PACKAGE.format(stem + '.mat')}",
+             "# nm; reflectance, 1 is a perfect white; the range that was measured",
+             "nm," + ",".join(f"r{index + 1}" for index in range(len(rows)))]
+    for nm in range(first, last + 1, step):
+        index, rest = divmod(nm - file_first, file_step)
+        if rest:
+            sys.exit(f"{stem}: no sample at {nm} nm")
+        lines.append(f"{nm}," + ",".join(format(row[index], ".4g") for row in rows))
+    return "\n".join(lines) + "\n"
+
+
+def write(folder, name, text):
+    (folder / name).write_text(text, encoding="ascii", newline="\n")
+
+
 def main():
     root = pathlib.Path(__file__).resolve().parent.parent
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--source", default=SOURCE, help="folder of the .mat files")
     parser.add_argument("--output", default=root / "src/receptors/tables", type=pathlib.Path)
+    parser.add_argument("--reflectances", default=root / "tests/data", type=pathlib.Path)
     options = parser.parse_args()
     for name, spec in TABLES.items():
-        text = table_text(spec, options.source)
-        (options.output / name).write_text(text, encoding="ascii", newline="\n")
+        write(options.output, name, table_text(spec, options.source))
+    for name, spec in REFLECTANCES.items():
+        write(options.reflectances, name, reflectance_text(spec, options.source))
 
 
 if __name__ == "__main__":
