@@ -1,0 +1,97 @@
+// Loss of detail in dim light: a bilateral filter (Tomasi and Manduchi 1998), Gaussian in space and in the
+// CIELAB distance. Fine texture goes, edges stay. Knows planes of pixels, nothing of files.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+#include "kernel/matrix3.h"
+
+namespace scotopic {
+
+/// What is averaged, always under weights from the CIELAB distance: linear light (what optics and pooling in
+/// the retina add up; keeps the mean luminance), or the CIELAB values themselves (Tomasi and Manduchi).
+enum class AcuitySpace { light, lab };
+
+/// `window` visits every pixel under the Gaussian: exact, and its cost grows with the square of sigma.
+/// `cells` replaces the pixels of small squares by a few Gaussian clusters: flat cost, approximate.
+enum class AcuityEngine { automatic, window, cells };
+
+/// How far the Gaussian reaches and how finely cells are divided. Error bounds: docs/acuity.md.
+enum class AcuityQuality { draft, normal, fine };
+
+struct AcuityParameters {
+  /// Standard deviation in space, pixels; >= 0 and finite. 0 (or too small to reach a neighbour): identity.
+  double sigma = 0.0;
+  /// Standard deviation in CIELAB units; > 0 and finite.
+  double range_sigma = 15.0;
+  /// Luminance, in units of the image, of the white that CIELAB is relative to: La/0.18/white_luminance.
+  double white = 1.0;
+  /// CIE XYZ (D65 white, Y = 1 for RGB 1,1,1) from the linear RGB of the planes; invertible.
+  Matrix3<double> xyz_from_rgb = identity3<double>();
+  /// 0: identity; 1: the filter; between: a mixture of the two in linear light.
+  double strength = 1.0;
+  AcuitySpace space = AcuitySpace::light;
+  AcuityEngine engine = AcuityEngine::automatic;
+  AcuityQuality quality = AcuityQuality::normal;
+};
+
+/// Linear RGB planes of a rectangle of an image of image_width x image_height pixels. (x, y) is where the
+/// rectangle's first pixel lies in the image; `stride` is in floats from row to row.
+struct AcuityWindow {
+  const float* r = nullptr;
+  const float* g = nullptr;
+  const float* b = nullptr;
+  std::ptrdiff_t stride = 0;
+  int x = 0, y = 0, width = 0, height = 0;
+  int image_width = 0, image_height = 0;
+};
+
+/// The rectangle to be computed, in the same coordinates. Must not overlap the window in memory.
+struct AcuityTile {
+  float* r = nullptr;
+  float* g = nullptr;
+  float* b = nullptr;
+  std::ptrdiff_t stride = 0;
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+/// Runs task(0) ... task(count-1), on any threads in any order, and returns when all are done.
+using ParallelFor = std::function<void(int count, const std::function<void(int)>& task)>;
+
+/// One task after the other, on the calling thread.
+void serial_for(int count, const std::function<void(int)>& task);
+
+/// The filter with all that does not depend on the image worked out. Immutable: share it between threads.
+///
+/// A pixel with a non-finite component, or beyond 1e5 CIELAB units from black (light over 6e8 times the
+/// white), passes unchanged and is seen by no other pixel. Pixels outside the image do not exist: nothing is
+/// mirrored or padded, and a constant image comes back bit for bit.
+class AcuityFilter {
+ public:
+  /// Throws std::invalid_argument where a parameter is outside its stated domain.
+  explicit AcuityFilter(const AcuityParameters& parameters);
+  ~AcuityFilter();
+  AcuityFilter(AcuityFilter&&) noexcept;
+  AcuityFilter& operator=(AcuityFilter&&) noexcept;
+
+  /// Pixels around a tile that its window must hold, as far as the image goes; 0 where the filter is the
+  /// identity.
+  int halo() const noexcept;
+
+  /// The engine in use: window or cells.
+  AcuityEngine engine() const noexcept;
+
+  /// Computes `tile` from `window`. The result of a pixel depends on the image alone: not on tile, window or
+  /// threads. Scratch memory: some (rows of 256 + 2 halo) x window.width x 40 bytes at most.
+  /// Throws std::invalid_argument where the window does not hold the tile and its halo.
+  void filter(const AcuityWindow& window, const AcuityTile& tile,
+              const ParallelFor& parallel_for = serial_for) const;
+
+ private:
+  struct Plan;
+  std::unique_ptr<const Plan> plan_;
+};
+
+}  // namespace scotopic
