@@ -194,6 +194,12 @@ bool ColourConfig::is_srgb(const ColourSpace& space) const {
   return true;
 }
 
+std::optional<Matrix3<double>> ColourConfig::linear_xyz(const ColourSpace& space) const {
+  if (space.xyz_from_rgb) return space.xyz_from_rgb;
+  const std::optional<Matrix3<double>> working = linear_matrix(space.name, working_space_);
+  return working ? std::optional(xyz_from_working_ * *working) : std::nullopt;
+}
+
 RowConverter ColourConfig::to_working(const ColourSpace& from) const {
   if (!from.xyz_from_rgb) return RowConverter(processor(from.name, working_space_));
   const NamedPrimaries* known = match_matrix(*from.xyz_from_rgb);

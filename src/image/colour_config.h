@@ -69,6 +69,9 @@ class ColourConfig {
   /// Whether values of the space are the encoded ones of IEC 61966-2-1, BT.709 primaries.
   bool is_srgb(const ColourSpace& space) const;
 
+  /// CIE XYZ (D65-adapted) from the space's RGB; nullopt if it is not linear light.
+  std::optional<Matrix3<double>> linear_xyz(const ColourSpace& space) const;
+
   RowConverter to_working(const ColourSpace& from) const;
   RowConverter from_working(const ColourSpace& to) const;
 

@@ -24,7 +24,7 @@ std::optional<double> float_attribute(const OIIO::ImageSpec& spec, const char* n
 /// Grey images name their channel in many ways; EXR's is Y.
 void name_grey(std::vector<Channel>& channels) {
   const bool alpha = channels.size() == 2 && channels[1].name == "A";
-  if (channels.size() == 1 || alpha) channels[0].name = "Y";
+  if (channels.size() == 1 || alpha) channels[0].name.assign(1, 'Y');
 }
 
 }  // namespace

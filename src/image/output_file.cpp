@@ -1,6 +1,7 @@
 #include "image/output_file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -73,7 +74,7 @@ class SignalsHeld {
 
 /// A name beside the target that nothing else uses: hidden, so that no sequence pattern matches it.
 std::string temporary_name(const std::string& folder, int attempt) {
-  return folder + "/.scotopic-" + std::to_string(getpid()) + "-" + std::to_string(attempt) + ".tmp";
+  return fmt::format("{}/.scotopic-{}-{}.tmp", folder, getpid(), attempt);
 }
 
 mode_t permissions_of_new_files() {
@@ -107,7 +108,7 @@ OutputFile::OutputFile(const std::string& path) : path_(path), target_(path) {
   if (exists && !S_ISREG(info.st_mode))
     throw Error(ExitCode::output, path_, "is a device, not a file to write");
   folder_ = std::filesystem::path(target_).parent_path().string();
-  if (folder_.empty()) folder_ = ".";
+  if (folder_.empty()) folder_.push_back('.');
   buffer_.reserve(buffer_size);
   open_temporary();
   // What fchmod cannot set (another owner's file, FAT) is not worth failing for.
@@ -200,7 +201,7 @@ std::size_t OutputFile::read(void* data, std::size_t size) noexcept {
 void OutputFile::publish() {
   const SignalsHeld held;
   if (temporary_.empty()) {
-    const std::string open_file = "/proc/self/fd/" + std::to_string(descriptor_);
+    const std::string open_file = fmt::format("/proc/self/fd/{}", descriptor_);
     // linkat does not replace: where the target exists the file gets a name of its own first.
     if (linkat(AT_FDCWD, open_file.c_str(), AT_FDCWD, target_.c_str(), AT_SYMLINK_FOLLOW) == 0) return;
     int linked = -1;

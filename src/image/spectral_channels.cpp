@@ -202,6 +202,8 @@ std::optional<SpectralLayout> search(std::span<const ChannelName> channels, cons
 
 }  // namespace
 
+bool is_spectral_channel(std::string_view name) { return band_name(name).has_value() || is_ocean_name(name); }
+
 double wavelength_from_text(std::string_view text, const std::string& channel) {
   const std::size_t length = number_length(text);
   const std::string_view unit = text.substr(length);

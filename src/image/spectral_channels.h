@@ -39,6 +39,9 @@ struct SpectralLayout {
 /// More bands than any camera or renderer has; a file with more is taken to be hostile.
 inline constexpr std::size_t max_spectral_bands = 4096;
 
+/// Whether a name is that of a band or a Stokes component, well-formed or not.
+bool is_spectral_channel(std::string_view name);
+
 /// Wavelength in nm of "450nm", "4,5e2nm", "0,45um", "666,2THz": a number with decimal comma, then a unit of
 /// length or frequency with its SI prefix. `channel` is what messages call it. Throws Error(ExitCode::input).
 double wavelength_from_text(std::string_view text, const std::string& channel);

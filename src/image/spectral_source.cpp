@@ -157,6 +157,8 @@ void ExrSpectralSource::add_file(const std::string& name) {
   files_.push_back(std::make_unique<Imf::MultiPartInputFile>(name.c_str()));
   Imf::MultiPartInputFile& opened = *files_.back();
   for (int part = 0; part < opened.parts(); ++part) {
+    if (!opened.partComplete(part))
+      throw Error(ExitCode::input, name, "is truncated: it was not written to its end");
     if (opened.header(part).hasType() && !Imf::isImage(opened.header(part).type())) continue;  // deep
     const Imf::ChannelList& list = opened.header(part).channels();
     for (auto channel = list.begin(); channel != list.end(); ++channel) {
@@ -270,10 +272,8 @@ void ExrSpectralSource::list_other_channels() {
     const Place& place = channels_[c];
     const bool band = std::any_of(layout_.bands.begin(), layout_.bands.end(),
                                   [c](const SpectralBand& b) { return b.channel == c; });
-    const std::vector<ChannelName> alone = {{place.channel, std::nullopt}};
-    if (band || place.channel.find(".wavelength") != std::string::npos) continue;
+    if (band || is_spectral_channel(place.channel)) continue;  // Stokes components, other layers
     if (header_of(place).dataWindow() != header_of(bands_.front()).dataWindow()) continue;
-    if (find_spectral_layout(alone, "", file())) continue;  // Stokes components, other layers
     if (taken.insert(place.channel).second) passed_.push_back(place);
   }
 }
@@ -300,14 +300,13 @@ void ExrSpectralSource::describe_picture(const Limits& limits) {
     throw Error(ExitCode::limit, file(),
                 fmt::format("rows compressed together need {} MiB, more than {}",
                             row * picture.chunk_rows >> 20, limits.band_bytes >> 20));
-  header_ = first;
-  header_.channels() = Imf::ChannelList();
-  for (const char* spectral : {"spectralLayoutVersion", "emissiveUnits", "polarisationHandedness", "EV"})
-    header_.erase(spectral);
 }
 
 bool ExrSpectralSource::open(const SpectralOptions& options, const Limits& limits) {
   try {
+    const auto side = static_cast<int>(std::min<std::int64_t>(limits.side, INT32_MAX));
+    Imf::Header::setMaxImageSize(side, side);
+    Imf::Header::setMaxTileSize(side, side);
     open_files();
     if (!find_bands(options)) return false;
     check_places();
@@ -330,11 +329,27 @@ ColourChannels ExrSpectralSource::colour(std::size_t, const std::string&) const 
   return colour;
 }
 
+// What only spectra have would be untrue of the image made of them.
 std::vector<Attribute> ExrSpectralSource::attributes(std::size_t) const {
+  static const std::set<std::string> spectral = {"spectralLayoutVersion",
+                                                 "emissiveUnits",
+                                                 "polarisationHandedness",
+                                                 "EV",
+                                                 "whiteLuminance",
+                                                 "name",
+                                                 "type"};
+  const Imf::Header& header = header_of(bands_.front());
   std::vector<Attribute> out;
-  for (auto entry = header_.begin(); entry != header_.end(); ++entry)
-    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&entry.attribute()))
-      out.push_back({entry.name(), text->value()});
+  for (auto entry = header.begin(); entry != header.end(); ++entry) {
+    const std::string name = entry.name();
+    if (spectral.count(name) || name.find(".wavelength") != name.npos) continue;
+    const Imf::Attribute& attribute = entry.attribute();
+    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute)) {
+      out.push_back({name, text->value()});
+    } else if (const auto* number = dynamic_cast<const Imf::FloatAttribute*>(&attribute)) {
+      out.push_back({name, static_cast<double>(number->value())});
+    }
+  }
   return out;
 }
 

@@ -1,8 +1,6 @@
 // Spectral images as a source of receptor signals and XYZ.
 #pragma once
 
-#include <OpenEXR/ImfHeader.h>
-
 #include <memory>
 #include <optional>
 #include <string>
@@ -46,13 +44,10 @@ struct SpectralReport {
 class SpectralSource : public PixelSource {
  public:
   const SpectralReport& report() const noexcept { return report_; }
-  /// Of the part with the bands, without what only spectra have: no channels, no emissiveUnits and so on.
-  const Imf::Header& header() const noexcept { return header_; }
 
  protected:
   using PixelSource::PixelSource;
   SpectralReport report_;
-  Imf::Header header_;
 };
 
 /// nullptr if the file is a well-formed image without spectral bands. `file` may be a pattern with one %d (or

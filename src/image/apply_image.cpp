@@ -1,0 +1,212 @@
+#include "image/apply_image.h"
+
+#include <OpenEXR/ImfThreading.h>
+#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "image/error.h"
+
+namespace scotopic {
+namespace {
+
+/// Calls `row_range(first, last, chunk)` for the rows of a band on all threads; exceptions reach the caller.
+template <typename Work>
+void parallel_rows(int rows, int chunk_rows, Work work) {
+  std::exception_ptr failure;
+  std::mutex failure_lock;
+  OIIO::parallel_for_chunked(0, rows, chunk_rows, [&](std::int64_t first, std::int64_t last) {
+    try {
+      work(static_cast<int>(first), static_cast<int>(last));
+    } catch (...) {
+      const std::lock_guard lock(failure_lock);
+      failure = std::current_exception();
+    }
+  });
+  if (failure) std::rethrow_exception(failure);
+}
+
+/// Bands of a picture, the last one first if `descending`.
+template <typename Use>
+void each_band(const Picture& picture, bool descending, Use use) {
+  const int step = band_rows(picture);
+  const int count = (picture.data.height() + step - 1) / step;
+  for (int i = 0; i < count; ++i) {
+    const int y0 = picture.data.y0 + (descending ? count - 1 - i : i) * step;
+    use(y0, std::min(step, picture.data.y1 - y0));
+  }
+}
+
+/// One picture's way through the operator.
+class PictureRun {
+ public:
+  PictureRun(const PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+             const AppearanceBatch& batch, const OutputPicture& out)
+      : light_(*layout.light_of(out.source)),
+        source_picture_(source.pictures()[out.source]),
+        out_(out),
+        batch_(batch),
+        reader_(light_.channels, config, light_.space) {
+    writer_.from_working = config.from_working(layout.output_space);
+    writer_.gain = static_cast<float>(std::exp2(layout.exposure));
+    if (light_.channels.alpha && source_picture_.unassociated_alpha != out.picture.unassociated_alpha)
+      writer_.alpha = out.picture.unassociated_alpha ? AlphaChange::unassociate : AlphaChange::associate;
+    writer_.keep_untouched = !out.new_space && writer_.gain == 1 && writer_.alpha == AlphaChange::none;
+    find_others();
+  }
+
+  /// Fills `out` from `in`; `interleaved` as the sink wants it.
+  void run(const Band& in, Band& out, bool interleaved) const {
+    const std::vector<Channel>& channels = out_.picture.channels;
+    if (interleaved)
+      out.allocate_interleaved(channels, in.y0, in.rows, in.width);
+    else
+      out.allocate_planar(channels, in.y0, in.rows, in.width);
+    parallel_rows(in.rows, 8, [&](int first, int last) {
+      LightRow light(static_cast<std::size_t>(in.width));
+      for (int row = first; row < last; ++row) run_row(in, row, light, out);
+    });
+  }
+
+ private:
+  void run_row(const Band& in, int row, LightRow& light, Band& out) const {
+    reader_.read(in, row, light);
+    batch_.apply(light.pixels(reader_.receptors()), light.touched.data());
+    const NativeRow targets[3] = {out.channels[0].row(row), out.channels[1].row(row),
+                                  out.channels[2].row(row)};
+    if (reader_.receptors()) {
+      writer_.write(light, targets, nullptr);
+    } else {
+      const bool grey = light_.channels.kind == ColourChannels::Kind::grey;
+      const auto source_row = [&](std::size_t c) {
+        return in.channels[light_.channels.index[grey ? 0 : c]].row(row);
+      };
+      const NativeRow sources[3] = {source_row(0), source_row(1), source_row(2)};
+      writer_.write(light, targets, &sources);
+    }
+    for (std::size_t i = 0; i < others_.size(); ++i)
+      copy_other(in.channels[others_[i]].row(row), out.channels[3 + i].row(row), light.r);
+  }
+
+  /// Channels that are not colour follow R, G, B, in the file's order.
+  void find_others() {
+    for (std::size_t o = 3; o < out_.picture.channels.size(); ++o) {
+      const std::string& name = out_.picture.channels[o].name;
+      for (std::size_t c = 0; c < source_picture_.channels.size(); ++c) {
+        const bool alpha = light_.channels.alpha == c;
+        if (light_.channels.is_colour(c) ||
+            (source_picture_.channels[c].name != name && !(alpha && name == "A")))
+          continue;
+        others_.push_back(c);
+        break;
+      }
+    }
+  }
+
+  static void copy_other(const NativeRow& from, const NativeRow& to, std::vector<float>& room) {
+    const std::size_t width = room.size();
+    if (from.type == to.type) {
+      const std::size_t size = size_of(from.type);
+      for (std::size_t i = 0; i < width; ++i)
+        std::memcpy(to.data + static_cast<std::ptrdiff_t>(i) * to.stride,
+                    from.data + static_cast<std::ptrdiff_t>(i) * from.stride, size);
+    } else {
+      load_row(from, width, room.data());
+      store_row(room.data(), width, to);
+    }
+  }
+
+  const LightPicture& light_;
+  const Picture& source_picture_;
+  const OutputPicture& out_;
+  const AppearanceBatch& batch_;
+  LightReader reader_;
+  LightWriter writer_;
+  std::vector<std::size_t> others_;  // channel of the source for each output channel after R, G, B
+};
+
+std::int64_t all_rows(const ImageLayout& layout) {
+  std::int64_t rows = 0;
+  for (const OutputPicture& out : layout.outputs) rows += out.copy ? 0 : out.picture.data.height();
+  return rows;
+}
+
+}  // namespace
+
+void set_threads(int count) {
+  const int threads = count > 0 ? count : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  OIIO::attribute("threads", threads);
+  // One thread is the caller: OpenEXR's pool would only wait beside it.
+  Imf::setGlobalThreadCount(threads > 1 ? threads : 0);
+}
+
+SceneStatistics measure_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+                              const AppearanceParameters& parameters) {
+  std::uint64_t pixels = 0;
+  for (const LightPicture& light : layout.light) {
+    const Window& w = source.pictures()[light.index].data;
+    pixels += static_cast<std::uint64_t>(w.width()) * static_cast<std::uint64_t>(w.height());
+  }
+  const SceneMeter meter(parameters, pixels);
+  SceneStatistics all;
+  std::uint64_t before = 0;
+  for (const LightPicture& light : layout.light) {
+    const Picture& picture = source.pictures()[light.index];
+    if (picture.level_x != 0 || picture.level_y != 0) continue;
+    const LightReader reader(light.channels, config, light.space);
+    const auto width = static_cast<std::uint64_t>(picture.data.width());
+    each_band(picture, false, [&](int y0, int rows) {
+      Band band;
+      source.read(light.index, y0, rows, band);
+      // Few large parts, added in their order, so that samples do not depend on which thread was first.
+      const int part_rows = std::max(1, (rows + 15) / 16);
+      std::vector<SceneStatistics> parts(static_cast<std::size_t>((rows + part_rows - 1) / part_rows));
+      parallel_rows(rows, part_rows, [&](int first, int last) {
+        LightRow row_light(static_cast<std::size_t>(width));
+        for (int row = first; row < last; ++row) {
+          reader.read(band, row, row_light);
+          const auto y = static_cast<std::uint64_t>(y0 - picture.data.y0 + row);
+          meter.measure(row_light.pixels(reader.receptors()), before + y * width,
+                        parts[static_cast<std::size_t>(row / part_rows)]);
+        }
+      });
+      for (const SceneStatistics& part : parts) all.add(part);
+    });
+    before += width * static_cast<std::uint64_t>(picture.data.height());
+  }
+  return all;
+}
+
+void apply_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+                 const AppearanceBatch& batch, OutputFile& file, const Progress& progress) {
+  const std::unique_ptr<PixelSink> sink = open_sink(layout.format, file, source, layout.outputs);
+  const std::int64_t total = all_rows(layout);
+  std::int64_t done = 0;
+  Band in;
+  Band out;
+  for (std::size_t i = 0; i < layout.outputs.size(); ++i) {
+    if (layout.outputs[i].copy) {
+      sink->copy(i);
+      continue;
+    }
+    const PictureRun run(source, layout, config, batch, layout.outputs[i]);
+    const Picture& picture = source.pictures()[layout.outputs[i].source];
+    // OpenEXR wants the rows in the order that its header states, the other formats from the top.
+    each_band(picture, picture.descending && layout.format == "openexr", [&](int y0, int rows) {
+      source.read(layout.outputs[i].source, y0, rows, in);
+      run.run(in, out, sink->interleaved());
+      sink->write(i, out);
+      done += rows;
+      if (progress) progress(done, total);
+    });
+  }
+  sink->finish();
+}
+
+}  // namespace scotopic
