@@ -13,7 +13,7 @@ namespace scotopic::test {
 class WorstError {
  public:
   void add(const std::string& where, double measured, double expected, double tolerance) {
-    const double ratio = std::abs(measured - expected) / tolerance;
+    const double ratio = measured == expected ? 0.0 : std::abs(measured - expected) / tolerance;
     ++rows_;
     if (ratio <= worst_ && rows_ > 1) return;
     worst_ = std::isnan(ratio) ? HUGE_VAL : ratio;
