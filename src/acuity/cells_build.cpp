@@ -32,15 +32,14 @@ struct Cluster {
 /// Pixels [begin, end) of a cell, with their moments.
 struct Part {
   int begin, end;
-  Quad lab_x, rgb_y;   // means
-  Quad variance;       // of lab_x
-  Quad with_l;         // covariance of rgb_y with L
-  float widest;        // largest variance of L, a, b
+  Quad lab_x, rgb_y;  // means
+  Quad variance;      // of lab_x
+  float widest;       // largest variance of L, a, b
   int widest_channel;
 };
 
 HWY_INLINE Part measured(const CellPixel* pixels, int begin, int end) {
-  Part part{begin, end, pixels[begin].lab_x, pixels[begin].rgb_y, Quad{}, Quad{}, 0.0f, 0};
+  Part part{begin, end, pixels[begin].lab_x, pixels[begin].rgb_y, Quad{}, 0.0f, 0};
   if (end - begin == 1) return part;
   // Sums of differences from the first pixel: equal pixels have exactly their own mean.
   Quad sum_a{}, sum_b{};
@@ -54,22 +53,36 @@ HWY_INLINE Part measured(const CellPixel* pixels, int begin, int end) {
   for (int i = begin; i < end; ++i) {
     const Quad a = pixels[i].lab_x - part.lab_x;
     part.variance += a * a;
-    part.with_l += a[0] * (pixels[i].rgb_y - part.rgb_y);
   }
   part.variance *= per_pixel;
-  part.with_l *= per_pixel;
   part.widest_channel = part.variance[1] > part.variance[0] ? 1 : 0;
   if (part.variance[2] > part.variance[part.widest_channel]) part.widest_channel = 2;
   part.widest = part.variance[part.widest_channel];
   return part;
 }
 
-HWY_INLINE void store_cluster(const Part& part, Cluster& out) {
+/// d RGB / d scaled CIELAB at a colour, a column for each of L, a, b.
+HWY_INLINE void light_slopes(const Constants& c, Quad lab, Quad (&slopes)[3]) {
+  const float unscale = 1.0f / c.lab_scale;
+  const float fy = (lab[0] * unscale + 16.0f) / 116.0f;
+  const float f[3] = {fy + lab[1] * unscale / 500.0f, fy, fy - lab[2] * unscale / 200.0f};
+  Quad columns[3];
+  for (int k = 0; k < 3; ++k) {
+    const float slope = unscale * (f[k] > 6.0f / 29.0f ? 3.0f * f[k] * f[k] : 108.0f / 841.0f);
+    columns[k] = slope * Quad{c.rgb_from_f3[0][k], c.rgb_from_f3[1][k], c.rgb_from_f3[2][k], 0.0f};
+  }
+  slopes[0] = (columns[0] + columns[1] + columns[2]) / 116.0f;
+  slopes[1] = columns[0] / 500.0f;
+  slopes[2] = columns[2] / -200.0f;
+}
+
+HWY_INLINE void store_cluster(const Constants& c, const Part& part, Cluster& out) {
   constexpr float ends = static_cast<float>(2.0 * weight_end);
   const Quad gain = 1.0f / (1.0f + ends * part.variance);
   const Quad root{std::sqrt(gain[0]), std::sqrt(gain[1]), std::sqrt(gain[2]), 1.0f};
   const Quad lab = part.lab_x * root;
-  const Quad slope = part.with_l * (ends * root[0]);
+  Quad slopes[3];
+  light_slopes(c, part.lab_x, slopes);
   out.values[cluster_x] = part.lab_x[3];
   out.values[cluster_y] = part.rgb_y[3];
   out.values[cluster_weight] = static_cast<float>(part.end - part.begin) * (root[0] * root[1] * root[2]);
@@ -77,7 +90,8 @@ HWY_INLINE void store_cluster(const Part& part, Cluster& out) {
     out.values[cluster_root + k] = root[k];
     out.values[cluster_lab + k] = lab[k];
     out.values[cluster_light + k] = part.rgb_y[k];
-    out.values[cluster_slope + k] = slope[k];
+    for (int j = 0; j < 3; ++j)
+      out.values[cluster_slope + 3 * k + j] = slopes[j][k] * (ends * part.variance[j] * root[j]);
   }
 }
 
@@ -111,24 +125,24 @@ HWY_INLINE void append_clusters(const Constants& c, CellPixel* pixels, int count
   }
   const std::size_t at = clusters.size();
   clusters.resize(at + static_cast<std::size_t>(used));
-  for (int i = 0; i < used; ++i) store_cluster(parts[i], clusters[at + static_cast<std::size_t>(i)]);
+  for (int i = 0; i < used; ++i) store_cluster(c, parts[i], clusters[at + static_cast<std::size_t>(i)]);
 }
 
 /// Scaled CIELAB of `count` pixels of a row.
-void lab_of_row(const Constants& c, const float* r, const float* g, const float* b, int count, float* lab[3]) {
+void lab_of_row(const Constants& c, const float* r, const float* g, const float* b, int count,
+                float* lab[3]) {
   const hn::ScalableTag<float> d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const auto convert = [&](const float* pr, const float* pg, const float* pb, float* l, float* a,
                            float* bb) HWY_ATTR {
-    const auto out = scaled_lab(d, c, Three<hn::Vec<decltype(d)>>{hn::LoadU(d, pr), hn::LoadU(d, pg),
-                                                                  hn::LoadU(d, pb)});
+    const auto out =
+        scaled_lab(d, c, Three<hn::Vec<decltype(d)>>{hn::LoadU(d, pr), hn::LoadU(d, pg), hn::LoadU(d, pb)});
     hn::StoreU(out.x, d, l);
     hn::StoreU(out.y, d, a);
     hn::StoreU(out.z, d, bb);
   };
   int i = 0;
-  for (; i + lanes <= count; i += lanes)
-    convert(r + i, g + i, b + i, lab[0] + i, lab[1] + i, lab[2] + i);
+  for (; i + lanes <= count; i += lanes) convert(r + i, g + i, b + i, lab[0] + i, lab[1] + i, lab[2] + i);
   if (i >= count) return;
   HWY_ALIGN float rest[6][HWY_MAX_BYTES / sizeof(float)] = {};
   for (int j = 0; j < count - i; ++j) {
@@ -159,7 +173,9 @@ void BuildCellRow(const Constants& c, const AcuityWindow& window, int row, CellR
   const int rows = last_y - first_y;
   const auto width = static_cast<std::size_t>(window.width);
   std::vector<float> planes(3 * width * static_cast<std::size_t>(rows));
-  const auto plane = [&](int k, int y) { return planes.data() + (static_cast<std::size_t>(y * 3 + k)) * width; };
+  const auto plane = [&](int k, int y) {
+    return planes.data() + (static_cast<std::size_t>(y * 3 + k)) * width;
+  };
   for (int y = 0; y < rows; ++y) {
     const std::ptrdiff_t offset = (first_y + y - window.y) * window.stride;
     float* lab[3] = {plane(0, y), plane(1, y), plane(2, y)};
@@ -173,7 +189,8 @@ void BuildCellRow(const Constants& c, const AcuityWindow& window, int row, CellR
   out.first.clear();
   for (int cell = first_cell; cell <= last_cell; ++cell) {
     out.first.push_back(static_cast<std::uint32_t>(clusters.size()));
-    const int x0 = std::max(cell * c.cell, window.x), x1 = std::min((cell + 1) * c.cell, window.x + window.width);
+    const int x0 = std::max(cell * c.cell, window.x),
+              x1 = std::min((cell + 1) * c.cell, window.x + window.width);
     int count = 0;
     for (int y = 0; y < rows; ++y) {
       const std::ptrdiff_t offset = (first_y + y - window.y) * window.stride - window.x;

@@ -23,8 +23,8 @@ using D = Lanes;
 using V = Vector;
 
 /// The clusters that the pixels of a block see, field by field, places relative to the block's middle. The
-/// distance of pixel p and cluster c takes |p - c|^2 from u; |p|^2 is the same for all clusters of a pixel and
-/// drops out of the mean, so two products are left, and what c's own |c|^2 leaves of u.
+/// distance of pixel p and cluster c takes |p - c|^2 from u; |p|^2 is the same for all clusters of a pixel
+/// and drops out of the mean, so two products are left, and what c's own |c|^2 leaves of u.
 class ClusterList {
  public:
   static constexpr int near_u = cluster_fields, fields = cluster_fields + 1;
@@ -36,7 +36,8 @@ class ClusterList {
   int count() const { return count_; }
   const float* values() const { return values_.get(); }
   void clear() { count_ = 0; }
-  void append(const Constants& c, const CellRow& row, std::uint32_t begin, std::uint32_t end, float x, float y);
+  void append(const Constants& c, const CellRow& row, std::uint32_t begin, std::uint32_t end, float x,
+              float y);
 
  private:
   int count_ = 0;
@@ -105,15 +106,18 @@ HWY_INLINE Wide apart(const float* cluster, int i, Wide own) {
   return each([&](V v) HWY_ATTR { return hn::MulSub(v, root, mean); }, own);
 }
 
-/// Differences to average of a cluster and pixels: of scaled CIELAB or of light, channel `i`.
-template <AcuitySpace space>
-HWY_INLINE Wide change(const float* cluster, int i, Wide apart_channel, Wide apart_l, Wide own_light) {
-  // mean - pixel = -difference * root, once the range kernel's gain is counted
-  if constexpr (space == AcuitySpace::lab)
-    return scaled(apart_channel, hn::Neg(field(cluster, cluster_root + i)));
-  else
-    return scaled_add(apart_l, field(cluster, cluster_slope + i),
-                      sub_from(own_light, field(cluster, cluster_light + i)));
+/// What a cluster would change each pixel's RGB to, less what it is: its mean, moved towards the pixel as the
+/// range kernel moves it within the cluster.
+HWY_INLINE Wide light_change(const float* cluster, int i, Wide l, Wide a, Wide b, Wide own) {
+  const int slope = cluster_slope + 3 * i;
+  const Wide mean = sub_from(own, field(cluster, cluster_light + i));
+  return scaled_add(l, field(cluster, slope),
+                    scaled_add(a, field(cluster, slope + 1), scaled_add(b, field(cluster, slope + 2), mean)));
+}
+
+/// mean - pixel = -difference * root, once the range kernel's gain is counted.
+HWY_INLINE Wide lab_change(const float* cluster, int i, Wide difference) {
+  return scaled(difference, hn::Neg(field(cluster, cluster_root + i)));
 }
 
 /// All the clusters of the list, seen from the pixels.
@@ -130,16 +134,23 @@ HWY_INLINE Sums sum_clusters(const ClusterList& list, const Pixels& p) {
     const Wide rest = less_square(b, less_square(a, less_square(l, u)));
     const Wide w = scaled(weights(rest), field(cluster, cluster_weight));
     total = add(total, w);
-    x = mul_add(w, change<space>(cluster, 0, l, l, p.red), x);
-    y = mul_add(w, change<space>(cluster, 1, a, l, p.green), y);
-    z = mul_add(w, change<space>(cluster, 2, b, l, p.blue), z);
+    if constexpr (space == AcuitySpace::lab) {
+      x = mul_add(w, lab_change(cluster, 0, l), x);
+      y = mul_add(w, lab_change(cluster, 1, a), y);
+      z = mul_add(w, lab_change(cluster, 2, b), z);
+    } else {
+      x = mul_add(w, light_change(cluster, 0, l, a, b, p.red), x);
+      y = mul_add(w, light_change(cluster, 1, l, a, b, p.green), y);
+      z = mul_add(w, light_change(cluster, 2, l, a, b, p.blue), z);
+    }
   }
   return {x, y, z, total};
 }
 
 /// Changes `lanes` pixels of the block from `at` on by their sums.
 template <AcuitySpace space>
-HWY_INLINE void finish(const Constants& c, Three<V> sums, V total, Three<V> lab, float* red, std::ptrdiff_t plane) {
+HWY_INLINE void finish(const Constants& c, Three<V> sums, V total, Three<V> lab, float* red,
+                       std::ptrdiff_t plane) {
   const D d;
   // A pixel alone in colour within a cell of too many colours may see nothing: it stays as it is.
   const auto seen = hn::And(hn::Lt(lab.x, hn::Set(d, 0.5f * absent)), hn::Gt(total, hn::Zero(d)));
@@ -172,8 +183,11 @@ HWY_INLINE void filter_block(const Constants& c, const ClusterList& list, const 
     p.x = hn::Load(d, places.x + i % block_width);
     p.y = load(places.y);
     const auto convert = [&](V Three<V>::*channel) HWY_ATTR {
-      return each([&](V r, V g, V b) HWY_ATTR { return scaled_lab(d, c, Three<V>{r, g, b}).*channel; }, p.red,
-                  p.green, p.blue);
+      return each(
+          [&](V r, V g, V b) HWY_ATTR {
+            return scaled_lab(d, c, Three<V>{r, g, b}).*channel;
+          },
+          p.red, p.green, p.blue);
     };
     p.l = convert(&Three<V>::x);
     p.a = convert(&Three<V>::y);

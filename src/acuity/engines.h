@@ -34,17 +34,18 @@ inline constexpr float lab_limit = 1e5f;
 /// Scaled lightness that marks a pixel as absent; its weight is 0 for every pixel that is present.
 inline constexpr float absent = 1e12f;
 
-/// What is kept of a cluster, the pixels of a cell that look alike. A gain is that of the range kernel widened
-/// by the cluster's own variance v: sigma_r^2/(sigma_r^2 + v).
+/// What is kept of a cluster, the pixels of a cell that look alike. A gain is that of the range kernel
+/// widened by the cluster's own variance v: sigma_r^2/(sigma_r^2 + v).
 enum ClusterField {
-  cluster_x,       ///< centroid in the image, pixels
+  cluster_x,  ///< centroid in the image, pixels
   cluster_y,
-  cluster_weight,  ///< count * sqrt(gain_l gain_a gain_b)
-  cluster_root,    ///< 3: sqrt(gain) of L, a, b
+  cluster_weight,                   ///< count * sqrt(gain_l gain_a gain_b)
+  cluster_root,                     ///< 3: sqrt(gain) of L, a, b
   cluster_lab = cluster_root + 3,   ///< 3: mean scaled CIELAB times sqrt(gain)
   cluster_light = cluster_lab + 3,  ///< 3: mean RGB
-  cluster_slope = cluster_light + 3,  ///< 3: 2 weight_end cov(RGB, scaled L) sqrt(gain_l)
-  cluster_fields = cluster_slope + 3,
+  cluster_slope =
+      cluster_light + 3,  ///< 3x3: change of RGB with L, a, b times 2 weight_end variance sqrt(gain)
+  cluster_fields = cluster_slope + 9,
 };
 
 /// Clusters that a block may see at most; Constants::most_clusters is chosen so that it suffices.
@@ -73,8 +74,8 @@ struct LabRows {
 /// Fills `out` with the cells of grid row `row`; the window's columns decide which cells there are.
 void build_cell_row(const Constants& constants, const AcuityWindow& window, int row, CellRow& out);
 
-/// Computes rows of the tile in the block row of constants.block_height at image row `y` (a multiple of it); `rows[i]` is grid row
-/// first_row + i, absent rows (outside the image) are null.
+/// Computes rows of the tile in the block row of constants.block_height at image row `y` (a multiple of it);
+/// `rows[i]` is grid row first_row + i, absent rows (outside the image) are null.
 void filter_from_cells(const Constants& constants, const AcuityWindow& window, const AcuityTile& tile, int y,
                        const CellRow* const* rows, int first_row, int row_count);
 

@@ -27,7 +27,7 @@ Tuning tuning_of(AcuityQuality quality) {
     case AcuityQuality::draft:
       return {2.5, 0.6, 0.25, 8};
     case AcuityQuality::normal:
-      return {2.75, 0.5, 0.1, 16};
+      return {2.75, 0.5, 0.15, 16};
     case AcuityQuality::fine:
       break;
   }
@@ -104,8 +104,8 @@ Constants constants_of(const AcuityParameters& p, const Tuning& tuning) {
   c.cell = std::max(1, static_cast<int>(std::lround(tuning.cell * p.sigma)));
   c.block_height = c.cell >= 4 ? 8 : 4;
   const double cells = c.radius / c.cell + 1.0;  // along the disc's radius
-  c.most_clusters = std::clamp(static_cast<int>(acuity::list_capacity / (4.0 * cells * cells)), 1,
-                               tuning.most_clusters);
+  c.most_clusters =
+      std::clamp(static_cast<int>(acuity::list_capacity / (4.0 * cells * cells)), 1, tuning.most_clusters);
   return c;
 }
 
@@ -168,7 +168,7 @@ void AcuityFilter::Plan::copy(const AcuityWindow& window, const AcuityTile& tile
 namespace {
 constexpr int strip_height = 256;  // output rows between which scratch rows are given back
 constexpr int task_height = 16;    // output rows of one task of the window engine
-constexpr int lane_margin = 32;  // pixels that one step of the window engine may read beyond a row
+constexpr int lane_margin = 32;    // pixels that one step of the window engine may read beyond a row
 }  // namespace
 
 void AcuityFilter::Plan::filter_window(const AcuityWindow& window, const AcuityTile& tile,

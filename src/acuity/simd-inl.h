@@ -178,14 +178,15 @@ HWY_INLINE Wide weights(Wide u) {
 
 /// What a weighted mean changes a pixel by, of three sums, and where there was any weight.
 template <AcuitySpace space>
-HWY_INLINE Three<Vector> mean_change(const Constants& c, Three<Vector> sums, Vector total, Three<Vector> lab) {
+HWY_INLINE Three<Vector> mean_change(const Constants& c, Three<Vector> sums, Vector total,
+                                     Three<Vector> lab) {
   const Lanes d;
   const Vector per_weight = hn::Div(hn::Set(d, 1.0f), total);
   const Three<Vector> mean{hn::Mul(sums.x, per_weight), hn::Mul(sums.y, per_weight),
                            hn::Mul(sums.z, per_weight)};
   if constexpr (space == AcuitySpace::light) return mean;
-  return rgb_difference(d, c, lab,
-                        Three<Vector>{hn::Add(lab.x, mean.x), hn::Add(lab.y, mean.y), hn::Add(lab.z, mean.z)});
+  return rgb_difference(
+      d, c, lab, Three<Vector>{hn::Add(lab.x, mean.x), hn::Add(lab.y, mean.y), hn::Add(lab.z, mean.z)});
 }
 
 }  // namespace scotopic::acuity::HWY_NAMESPACE

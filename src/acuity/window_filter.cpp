@@ -52,7 +52,8 @@ HWY_INLINE void filter_lanes(const Constants& c, const std::vector<Tap>& taps, c
   for (const Tap& tap : taps) {
     const float* there = at + tap.offset;
     const V tap_u = hn::Set(d, tap.u);
-    const Wide dl = sub(load(there), l), da = sub(load(there + stride), a), db = sub(load(there + 2 * stride), b);
+    const Wide dl = sub(load(there), l), da = sub(load(there + stride), a),
+               db = sub(load(there + 2 * stride), b);
     const Wide near = each([&](V v) HWY_ATTR { return hn::NegMulAdd(v, v, tap_u); }, dl);
     const Wide w = weights(less_square(db, less_square(da, near)));
     total = add(total, w);
@@ -116,8 +117,8 @@ void filter_rows(const Constants& c, const AcuityWindow& window, const AcuityTil
 
 }  // namespace
 
-void FilterFromWindow(const Constants& c, const AcuityWindow& window, const AcuityTile& tile, int y, int height,
-                      const LabRows& rows, int i) {
+void FilterFromWindow(const Constants& c, const AcuityWindow& window, const AcuityTile& tile, int y,
+                      int height, const LabRows& rows, int i) {
   if (c.space == AcuitySpace::lab)
     filter_rows<AcuitySpace::lab>(c, window, tile, y, height, rows, i);
   else

@@ -1,10 +1,10 @@
 #include "acuity/cutoff.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <limits>
 #include <numbers>
-
-#include <gtest/gtest.h>
 
 namespace scotopic {
 namespace {
@@ -16,7 +16,8 @@ struct Row {
 // Ward Larson, Rushmeier and Piatko 1997, Eq. 12, worked out by hand to 4 digits.
 TEST(Acuity, cutoff_follows_shlaer_as_fitted_by_ward_larson) {
   double worst = 0.0;
-  for (const Row& row : {Row{0.001, 3.007}, Row{0.01, 5.310}, Row{0.1, 11.75}, Row{1.0, 31.53}, Row{100.0, 47.51}}) {
+  for (const Row& row :
+       {Row{0.001, 3.007}, Row{0.01, 5.310}, Row{0.1, 11.75}, Row{1.0, 31.53}, Row{100.0, 47.51}}) {
     const double error = std::abs(acuity_cutoff(row.adaptation) / row.cutoff - 1.0);
     worst = std::max(worst, error);
     EXPECT_LT(error, 1e-3) << "La " << row.adaptation << ": " << acuity_cutoff(row.adaptation);

@@ -1,11 +1,11 @@
 #include "acuity/filter.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
-
-#include <gtest/gtest.h>
 
 #include "acuity/scenes.h"
 
@@ -47,7 +47,8 @@ void expect_same_bits(const Image& a, const Image& b) {
 TEST(AcuityFilter, constant_images_come_back_bit_for_bit) {
   for (double sigma : {1.3, 4.0, 17.0})
     for (const AcuityParameters& p : every_way(sigma))
-      for (const auto& [r, g, b] : {Vec3<float>{0.2f, 0.7f, 0.1f}, Vec3<float>{0, 0, 0}, Vec3<float>{-0.01f, 0.3f, 2e4f}}) {
+      for (const auto& [r, g, b] :
+           {Vec3<float>{0.2f, 0.7f, 0.1f}, Vec3<float>{0, 0, 0}, Vec3<float>{-0.01f, 0.3f, 2e4f}}) {
         const Image image = constant(67, 53, r, g, b);
         expect_same_bits(test::filtered(p, image), image);
       }
@@ -114,8 +115,9 @@ struct Hostile {
 
 TEST(AcuityFilter, hostile_pixels_never_spread_and_stay_themselves) {
   const Hostile hostile[] = {
-      {"NaN", {nan, 0.1f, 0.1f}, false},   {"Inf", {inf, inf, inf}, false},    {"-Inf", {0.1f, -inf, 0.1f}, false},
-      {"1e30", {1e30f, 1e30f, 1e30f}, true}, {"-1e30", {-1e30f, 1, 1}, true},  {"max", {3.4e38f, -3.4e38f, 3.4e38f}, true},
+      {"NaN", {nan, 0.1f, 0.1f}, false},     {"Inf", {inf, inf, inf}, false},
+      {"-Inf", {0.1f, -inf, 0.1f}, false},   {"1e30", {1e30f, 1e30f, 1e30f}, true},
+      {"-1e30", {-1e30f, 1, 1}, true},       {"max", {3.4e38f, -3.4e38f, 3.4e38f}, true},
       {"1e12", {1e12f, 1e12f, 1e12f}, true}, {"1e7", {1e7f, 1e7f, 1e7f}, true},
   };
   for (const Hostile& h : hostile)
@@ -128,7 +130,8 @@ TEST(AcuityFilter, hostile_pixels_never_spread_and_stay_themselves) {
         for (int k = 0; k < 3; ++k)
           for (std::size_t i = 0; i < out.planes[k].size(); ++i)
             ASSERT_TRUE(same_bits(out.planes[k][i], image.planes[k][i]))
-                << h.name << " sigma " << sigma << " plane " << k << " pixel " << i << ": " << out.planes[k][i];
+                << h.name << " sigma " << sigma << " plane " << k << " pixel " << i << ": "
+                << out.planes[k][i];
       }
 }
 
@@ -136,7 +139,8 @@ TEST(AcuityFilter, results_are_finite_where_the_input_is_whatever_surrounds_it) 
   Image image = test::night(90, 70);
   const float bad[] = {nan, inf, -inf, 1e30f, -1e30f, 1e8f, -5.0f, 0.0f, 1e-30f, -0.0f};
   for (int i = 0; i < 600; ++i) {
-    const int x = static_cast<int>(90 * test::noise(i, 0, 1)), y = static_cast<int>(70 * test::noise(i, 0, 2));
+    const int x = static_cast<int>(90 * test::noise(i, 0, 1)),
+              y = static_cast<int>(70 * test::noise(i, 0, 2));
     image.planes[i % 3][image.at(x, y)] = bad[i % 10];
   }
   for (double sigma : {2.0, 5.0, 20.0})

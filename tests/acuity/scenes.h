@@ -27,7 +27,8 @@ inline Matrix3<double> xyz_from_srgb() {
 
 /// Repeatable noise in [0, 1) of a place (SplitMix64's finaliser).
 inline double noise(int x, int y, int salt) {
-  auto z = static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15u + static_cast<std::uint64_t>(y) * 0xBF58476D1CE4E5B9u +
+  auto z = static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15u +
+           static_cast<std::uint64_t>(y) * 0xBF58476D1CE4E5B9u +
            static_cast<std::uint64_t>(salt) * 0x94D049BB133111EBu;
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
   z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
@@ -62,13 +63,27 @@ inline AcuityParameters parameters(double sigma, double range_sigma = 15.0) {
 }
 
 inline AcuityWindow window_of(const Image& image) {
-  return {image.planes[0].data(), image.planes[1].data(), image.planes[2].data(), image.width, 0, 0,
-          image.width, image.height, image.width, image.height};
+  return {image.planes[0].data(),
+          image.planes[1].data(),
+          image.planes[2].data(),
+          image.width,
+          0,
+          0,
+          image.width,
+          image.height,
+          image.width,
+          image.height};
 }
 
 inline AcuityTile tile_of(Image& image) {
-  return {image.planes[0].data(), image.planes[1].data(), image.planes[2].data(), image.width, 0, 0,
-          image.width, image.height};
+  return {image.planes[0].data(),
+          image.planes[1].data(),
+          image.planes[2].data(),
+          image.width,
+          0,
+          0,
+          image.width,
+          image.height};
 }
 
 inline Image filtered(const AcuityParameters& p, const Image& image,
@@ -95,7 +110,8 @@ inline Vec3<double> pixel(const Image& image, int x, int y) {
   return {image.planes[0][at], image.planes[1][at], image.planes[2][at]};
 }
 
-/// The bilateral mean at a pixel, every neighbour within 3.5 sigma counted: RGB, or CIELAB where it is averaged.
+/// The bilateral mean at a pixel, every neighbour within 3.5 sigma counted: RGB, or CIELAB where it is
+/// averaged.
 inline Vec3<double> brute_force(const AcuityParameters& p, const Image& image, int x, int y) {
   const Vec3<double> own = cielab(p, pixel(image, x, y));
   const int reach = static_cast<int>(std::ceil(3.5 * p.sigma));
