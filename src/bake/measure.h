@@ -1,0 +1,58 @@
+// How far a bake is from the operator, measured through OCIO itself.
+#pragma once
+
+#include <OpenColorIO/OpenColorIO.h>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "appearance/parameters.h"
+
+namespace scotopic {
+
+/// Planar linear RGB.
+struct Colours {
+  std::vector<float> r, g, b;
+  std::size_t size() const { return r.size(); }
+};
+
+/// The same `count` colours on every machine: brightness evenly over the 28 stops from 2^-20 to 2^8 of white, in the
+/// gamut with matrix xyz_from_gamut, converted to xyz_from_rgb. A quarter each: even over the faces of the RGB
+/// cube twice, strong colours (components cubed), and colours on the gamut's border.
+Colours stop_colours(std::size_t count, const Matrix3<double>& xyz_from_gamut, const Matrix3<double>& xyz_from_rgb);
+
+/// CIEDE2000 at equal exposure (appearance/colour_difference.h) between what should be and what is.
+struct BakeError {
+  double mean = 0, p99 = 0, max = 0;
+  Vec3<double> worst{}, expected{}, got{};  ///< linear RGB in, wanted and given where the error is greatest
+  std::size_t samples = 0;
+  std::size_t worst_index = 0;
+};
+
+/// Statistics over planar linear RGB of one size.
+BakeError compare(const Colours& in, const Colours& expected, const Colours& got, const Matrix3<double>& xyz_from_rgb);
+
+/// The operator's result, float rounded from double.
+Colours exact(const AppearanceParameters& parameters, Colours colours);
+
+/// Through an OCIO processor, in place.
+void apply(const OCIO_NAMESPACE::ConstCPUProcessorRcPtr& processor, Colours& colours);
+
+/// exact() against the processor on 1e5 stop_colours of a gamut.
+BakeError measure_bake(const AppearanceParameters& parameters, const OCIO_NAMESPACE::ConstCPUProcessorRcPtr& processor,
+                       const Matrix3<double>& xyz_from_gamut, std::size_t count = 100000);
+
+/// Pixels with NaN, infinities, negatives and denormals in every place: how many components come out not
+/// finite, and whether alpha kept its bits.
+struct OddPixels {
+  std::size_t tested = 0, not_finite = 0, alpha_changed = 0;
+  bool black_stays_black = true;
+};
+OddPixels odd_pixels(const OCIO_NAMESPACE::ConstCPUProcessorRcPtr& processor);
+
+/// "mean 0.031, 99 % 0.17, max 0.45"
+std::string error_text(const BakeError& error);
+
+}  // namespace scotopic
