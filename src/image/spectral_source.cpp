@@ -103,6 +103,7 @@ class ExrSpectralSource final : public SpectralSource {
   ExrSpectralSource(const std::string& file, const SpectralOptions& options)
       : SpectralSource(file, "openexr") {
     accumulation_ = options.accumulation;
+    signals_ = options.xyz ? signal_count : index(Signal::x);
   }
 
   /// False if there are no bands.
@@ -138,6 +139,7 @@ class ExrSpectralSource final : public SpectralSource {
   std::vector<Place> passed_;  // those handed on as they are
   Imf::PixelType band_type_ = Imf::FLOAT;
   Accumulation accumulation_ = Accumulation::dual;
+  std::size_t signals_ = signal_count;
   std::optional<SpectralIntegrator> integrator_;
   std::vector<std::byte> buffer_;  // [row][band][x]
 };
@@ -288,7 +290,7 @@ void ExrSpectralSource::describe_picture(const Limits& limits) {
   for (const Place& place : bands_)
     picture.chunk_rows = std::max(picture.chunk_rows, rows_compressed_together(header_of(place)));
   if (report_.kind != SpectralKind::reflective) picture.white_luminance = 1.0;
-  picture.computed_bytes = signal_count * sizeof(float);
+  picture.computed_bytes = signals_ * sizeof(float);
   band_type_ = std::all_of(bands_.begin(), bands_.end(), [](const Place& p) { return p.type == Imf::HALF; })
                    ? Imf::HALF
                    : Imf::FLOAT;
@@ -399,7 +401,7 @@ void ExrSpectralSource::copy_receptors(const float* from, std::size_t count, con
     const Vec3<double> colour = xyz * lms;
     for (std::size_t s = 0; s < 3; ++s) {
       out[s][i] = static_cast<float>(lms[s]);
-      out[index(Signal::x) + s][i] = static_cast<float>(colour[s]);
+      if (float* const plane = out[index(Signal::x) + s]) plane[i] = static_cast<float>(colour[s]);
     }
     out[index(Signal::rod)][i] = static_cast<float>(k * from[3 * count + i]);
   }
@@ -410,8 +412,8 @@ void ExrSpectralSource::weigh_rows(int first, int rows, Band& band) const {
   const std::size_t row_values = width * bands_.size();
   OIIO::parallel_for(std::int64_t{0}, std::int64_t{rows}, [&](std::int64_t row) {
     const auto r = static_cast<std::size_t>(row);
-    SignalRows out;
-    for (std::size_t s = 0; s < signal_count; ++s)
+    SignalRows out{};
+    for (std::size_t s = 0; s < signals_; ++s)
       out[s] = band.signals[s].data() + (static_cast<std::size_t>(first - band.y0) + r) * width;
     if (!integrator_) {
       copy_receptors(reinterpret_cast<const float*>(buffer_.data()) + r * row_values, width, out);
@@ -429,7 +431,7 @@ void ExrSpectralSource::read(std::size_t, int y0, int rows, Band& band) {
   const Picture& picture = pictures_[0];
   band.allocate_planar(picture.channels, y0, rows, picture.data.width());
   const auto pixels = static_cast<std::size_t>(rows) * static_cast<std::size_t>(band.width);
-  for (auto& plane : band.signals) plane.resize(pixels);
+  for (std::size_t s = 0; s < signals_; ++s) band.signals[s].resize(pixels);
   const std::size_t row = bands_.size() * sizeof(float) * static_cast<std::size_t>(band.width);
   const auto chunk = static_cast<std::size_t>(picture.chunk_rows);
   const int step = static_cast<int>(chunk * std::max<std::size_t>(1, bytes_at_once / (row * chunk)));

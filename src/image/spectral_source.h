@@ -17,6 +17,8 @@ struct SpectralOptions {
   std::string layer;
   BandSampling sampling = BandSampling::bin;
   Accumulation accumulation = Accumulation::dual;
+  /// Whether bands also become XYZ; without, Band::signals[4] to [6] stay empty.
+  bool xyz = true;
   /// Overrules the file's attribute emissiveUnits.
   std::optional<BandUnit> band_unit;
   /// For reflectance: relative spectral power, and what to call it.
