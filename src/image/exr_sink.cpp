@@ -82,6 +82,17 @@ void set_foreign_attributes(Imf::Header& header, const std::vector<Attribute>& a
   }
 }
 
+/// Compressions that change pixels would undo the promise that an untouched one keeps its bits, and they
+/// spend their precision on daylight: such pictures are written with ZIP.
+void make_lossless(Imf::Header& header) {
+  const Imf::Compression c = header.compression();
+  const bool lossy = c == Imf::B44_COMPRESSION || c == Imf::B44A_COMPRESSION || c == Imf::DWAA_COMPRESSION ||
+                     c == Imf::DWAB_COMPRESSION || c == Imf::PXR24_COMPRESSION;
+  if (!lossy) return;
+  header.compression() = Imf::ZIP_COMPRESSION;
+  header.erase("dwaCompressionLevel");
+}
+
 Imf::Header make_header(const PixelSource& source, const Picture& picture, std::size_t index) {
   const auto box = [](const Window& w) { return Imath::Box2i({w.x0, w.y0}, {w.x1 - 1, w.y1 - 1}); };
   Imf::Header header(box(picture.display), box(picture.data));
@@ -151,6 +162,7 @@ class ExrSink : public PixelSink {
     if (exr && out.copy) return exr->header(out.picture.part);
     Imf::Header header = exr ? exr->header(out.picture.part) : make_header(source, out.picture, out.source);
     set_channels(header, out.picture.channels);
+    make_lossless(header);
     if (out.new_space) {
       header.erase("chromaticities");
       if (out.primaries) set_primaries(header, *out.primaries);

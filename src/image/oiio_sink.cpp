@@ -123,7 +123,7 @@ class OiioSink : public PixelSink {
     if (!oiio) {
       spec.attribute("compression", "zip");
       for (const Attribute& a : source.attributes(out.source))
-        if (const auto* text = std::get_if<std::string>(&a.value))
+        if (const auto* text = std::get_if<std::string>(&a.value); text && a.name != "type")
           spec.attribute(a.name == "comments" ? "ImageDescription" : a.name, *text);
     }
     if (source.format() != format_) spec.tile_width = spec.tile_height = spec.tile_depth = 0;

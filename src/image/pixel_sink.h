@@ -43,6 +43,7 @@ std::string output_format(const std::string& path);
 /// Types of colour channels that the format can hold.
 const std::vector<PixelType>& pixel_types_of(const std::string& format);
 
+/// OpenEXR: header, tiles, order of lines and compression of the source (ZIP in place of a lossy one).
 /// `source` and `file` must outlive the sink. TIFF: one page for each picture; PNG: exactly one picture.
 std::unique_ptr<PixelSink> open_sink(const std::string& format, OutputFile& file, PixelSource& source,
                                      const std::vector<OutputPicture>& pictures);

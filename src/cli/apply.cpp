@@ -1,0 +1,165 @@
+// scotopic apply: an image as the dark-adapted eye sees it.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cli/image_options.h"
+#include "cli/operator_options.h"
+#include "cli/program.h"
+#include "cli/scene_numbers.h"
+#include "image/apply_image.h"
+#include "scene/plan.h"
+
+namespace scotopic {
+namespace {
+
+struct ApplyOptions {
+  std::string input;
+  std::string output;
+  OperatorOptions appearance;
+  ImageOptions image;
+  CommonOptions common;
+};
+
+KnownNumbers known_numbers(const OperatorChoice& choice, const PixelSource& source, const ImageLayout& layout,
+                           const Console& console) {
+  KnownNumbers known;
+  known.adaptation = choice.adaptation;
+  known.white_luminance = choice.white_luminance;
+  const LightPicture& light = layout.light.front();
+  const Picture& picture = source.pictures()[light.index];
+  const bool lmsr = light.channels.kind == ColourChannels::Kind::lmsr && picture.lmsr_unit;
+  known.file_unit = lmsr ? picture.lmsr_unit : picture.white_luminance;
+  known.file_unit_source = lmsr ? "the file's scotopic:lmsrUnit" : "the file's whiteLuminance";
+  if (known.file_unit && !(*known.file_unit > 0 && std::isfinite(*known.file_unit))) {
+    console.note(fmt::format("{}: {} of {} is no luminance, and ignored", source.file(),
+                             known.file_unit_source, *known.file_unit));
+    known.file_unit.reset();
+  }
+  return known;
+}
+
+std::vector<Attribute> stamps_of(const AppearanceParameters& p, const OperatorChoice& choice,
+                                 const ImageLayout& layout) {
+  const auto share = [&](double strength) { return p.strength.all * strength; };
+  return {{"scotopic:version", std::string(SCOTOPIC_VERSION)},
+          {"scotopic:model", model_name(p.model)},
+          {"scotopic:adaptation", p.adaptation},
+          {"scotopic:sceneWhiteLuminance", p.white_luminance},
+          {"scotopic:strengthShift", share(p.strength.shift)},
+          {"scotopic:strengthLuminance", share(p.strength.luminance)},
+          {"scotopic:strengthChroma", share(p.strength.chroma)},
+          {"scotopic:weight", weight_name(p.weight)},
+          {"scotopic:luminance", luminance_name(p.luminance)},
+          {"scotopic:gamut", choice.gamut},
+          {"scotopic:rods", rods_name(p.rods)},
+          {"scotopic:spRatio", p.sp_ratio},
+          {"scotopic:exposure", layout.exposure},
+          {"scotopic:colorspace", layout.output_space.name},
+          {"whiteLuminance", p.white_luminance / std::exp2(layout.exposure)}};
+}
+
+nlohmann::ordered_json result_of(const ApplyOptions& options, const SceneNumbers& numbers,
+                                 const ImageLayout& layout, const std::vector<Attribute>& stamps) {
+  nlohmann::ordered_json out;
+  out["input"] = options.input;
+  out["output"] = options.output;
+  out["colorspace"] = layout.light.front().space.name;
+  out["colorspaceSource"] = layout.light.front().space_reason;
+  out["outputColorspace"] = layout.output_space.name;
+  out["adaptationSource"] = numbers.adaptation_source;
+  out["whiteLuminanceSource"] = numbers.white_luminance_source;
+  for (const Attribute& stamp : stamps)
+    std::visit([&](const auto& value) { out["applied"][stamp.name] = value; }, stamp.value);
+  out["notes"] = layout.notes;
+  return out;
+}
+
+void describe_layout(const PixelSource& source, const ColourConfig& config, const ImageLayout& layout,
+                     const Console& console) {
+  const LightPicture& light = layout.light.front();
+  const Window& w = source.pictures()[light.index].data;
+  console.detail(fmt::format("{}: {} x {} pixels, {}, {} pictures, {} with light", source.file(), w.width(),
+                             w.height(), source.format(), source.pictures().size(), layout.light.size()));
+  console.detail(fmt::format("config {}, working space {}",
+                             config.file().empty() ? "built in" : config.file(), config.working_space()));
+  console.detail(fmt::format("colour space {} ({}), written as {}", light.space.name, light.space_reason,
+                             layout.output_space.name));
+  for (const std::string& note : layout.notes) console.note(source.file() + ": " + note);
+  for (const Attribute& a : source.attributes(light.index))
+    if (a.name == "scotopic:model")
+      console.note(source.file() + ": has been through scotopic already; this is the second time");
+}
+
+/// The scene's statistics where something depends on them: --adaptation auto, --effects auto.
+std::optional<SceneStatistics> measure(PixelSource& source, const ImageLayout& layout,
+                                       const ColourConfig& config, const OperatorChoice& choice,
+                                       const KnownNumbers& known) {
+  const bool adaptation = needs_measurement(known, source.file());
+  if (!adaptation && !choice.plan_effects) return std::nullopt;
+  return measure_image(source, layout, config, choice.parameters);
+}
+
+void plan_effects(AppearanceParameters& parameters, const SceneStatistics& statistics,
+                  const Console& console) {
+  PlanRequest request;
+  request.parameters = parameters;
+  const ScenePlan plan = plan_scene(request, &statistics);
+  for (const EffectDecision& decision : plan.effects)
+    if (decision.asked)
+      console.detail(fmt::format("{}: {} ({})", decision.effect, decision.runs() ? "applied" : "skipped",
+                                 decision.reason));
+  parameters = plan.parameters;
+}
+
+int run_apply(const ApplyOptions& options) {
+  const Console console(options.common);
+  OperatorChoice choice = understand(options.appearance);
+  const ImageRequest request = understand(options.image);
+  (void)output_format(options.output);
+  const ColourConfig config = ColourConfig::in_force(options.image.config);
+  check_spaces(request, config);
+  set_primaries(choice, config);
+  set_threads(options.common.threads);
+  OutputFile file(options.output);
+  const std::unique_ptr<PixelSource> source = open_source(options.input, options.image.limits);
+  ImageLayout layout = plan_layout(*source, options.output, config, request);
+  describe_layout(*source, config, layout, console);
+
+  const KnownNumbers known = known_numbers(choice, *source, layout, console);
+  const std::optional<SceneStatistics> statistics = measure(*source, layout, config, choice, known);
+  const SceneNumbers numbers =
+      settle(known, statistics ? statistics->log_mean_luminance() : 0, source->file());
+  console.note(source->file() + ": " + describe(numbers));
+  AppearanceParameters& parameters = choice.parameters;
+  parameters.adaptation = numbers.adaptation;
+  parameters.white_luminance = numbers.white_luminance;
+  if (choice.plan_effects) plan_effects(parameters, *statistics, console);
+
+  const std::vector<Attribute> stamps = stamps_of(parameters, choice, layout);
+  set_stamps(layout, stamps);
+  apply_image(*source, layout, config, AppearanceBatch(parameters, choice.precision), file);
+  console.result(result_of(options, numbers, layout, stamps));
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+void add_apply(CLI::App& program, Invocation& invocation) {
+  const auto options = std::make_shared<ApplyOptions>();
+  CLI::App& verb = *program.add_subcommand("apply", "An image as the dark-adapted eye sees it");
+  verb.footer("Example: scotopic apply night.exr -o seen.exr --adaptation 0.05");
+  verb.add_option("input", options->input, "EXR, TIFF, PNG, JPEG or HDR; RGB, or receptor signals L, M, S, R")
+      ->required()
+      ->type_name("IN");
+  verb.add_option("-o,--output", options->output, "EXR, TIFF or PNG, by its extension")
+      ->required()
+      ->type_name("OUT");
+  add_operator_options(verb, options->appearance);
+  add_input_options(verb, options->image);
+  add_output_options(verb, options->image);
+  add_common_options(verb, options->common);
+  on_command_line(verb, invocation, options, run_apply);
+}
+
+}  // namespace scotopic

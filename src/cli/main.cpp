@@ -1,0 +1,4 @@
+// scotopic VERB IN... -o OUT [options]
+#include "cli/program.h"
+
+int main(int argc, char** argv) { return scotopic::run_program(argc, argv, {scotopic::add_apply}); }

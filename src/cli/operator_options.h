@@ -1,0 +1,55 @@
+// The options that describe what the operator does: the same words in every verb.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "appearance/batch.h"
+#include "image/colour_config.h"
+
+namespace scotopic {
+
+/// As typed.
+struct OperatorOptions {
+  std::string adaptation = "auto";
+  std::string white_luminance;
+  std::string model = "filament2021";
+  std::string effects = "all";
+  std::string strength = "1";
+  std::string strength_shift = "1";
+  std::string strength_luminance = "1";
+  std::string strength_chroma = "1";
+  std::string weight = "local";
+  std::string luminance = "mesopic";
+  std::string gamut = "working";
+  std::string illuminant = "d65";
+  std::string rods = "linear";
+  std::string precision = "float";
+};
+
+/// As understood. Adaptation, white luminance and primaries in `parameters` are not set yet.
+struct OperatorChoice {
+  AppearanceParameters parameters;
+  std::optional<double> adaptation;       ///< nullopt: auto
+  std::optional<double> white_luminance;  ///< nullopt: the file's, or from the adaptation
+  bool plan_effects = false;              ///< --effects auto
+  std::string gamut;
+  Precision precision = Precision::single;
+};
+
+void add_operator_options(CLI::App& verb, OperatorOptions& options);
+
+/// Error(usage) for the first value that is not understood. Looks at nothing but the text.
+OperatorChoice understand(const OperatorOptions& options);
+
+/// Sets the primaries: those of the config's working space, and of the gamut chosen.
+void set_primaries(OperatorChoice& choice, const ColourConfig& config);
+
+/// Names for messages and metadata.
+std::string model_name(Model model);
+std::string weight_name(Weight weight);
+std::string luminance_name(LuminancePolicy policy);
+std::string rods_name(RodEstimate rods);
+
+}  // namespace scotopic

@@ -1,0 +1,86 @@
+#include "cli/program.h"
+
+#include <algorithm>
+#include <clocale>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string_view>
+
+#include "image/names.h"
+#include "image/output_file.h"
+
+namespace scotopic {
+namespace {
+
+/// A long option or verb that does not exist, with what it may have been; empty if that is not what is wrong.
+std::string unknown_name(const CLI::App& program, int argc, char** argv) {
+  const CLI::App* verb = nullptr;
+  for (const CLI::App* v : program.get_subcommands([](const CLI::App*) { return true; }))
+    if (argc > 1 && v->get_name() == argv[1]) verb = v;
+  std::vector<std::string> names;
+  if (!verb && argc > 1 && argv[1][0] != '-') {
+    for (const CLI::App* v : program.get_subcommands([](const CLI::App*) { return true; }))
+      names.push_back(v->get_name());
+    return std::string("unknown verb '") + argv[1] + "'" + did_you_mean(argv[1], names);
+  }
+  const CLI::App& app = verb ? *verb : program;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    if (argument == "--") break;
+    const std::string name(argument.substr(0, argument.find('=')));
+    if (name.rfind("--", 0) == 0 && std::find(names.begin(), names.end(), name) == names.end())
+      return "unknown option '" + name + "'" + did_you_mean(name, names);
+  }
+  return "";
+}
+
+Error usage_error(const CLI::App& program, const CLI::ParseError& error, int argc, char** argv) {
+  const std::string unknown = unknown_name(program, argc, argv);
+  return Error(ExitCode::usage, "", unknown.empty() ? error.what() : unknown);
+}
+
+bool asks_for_json(int argc, char** argv) {
+  return std::any_of(argv, argv + argc, [](const char* a) { return std::string_view(a) == "--json"; });
+}
+
+int run_verb(const Invocation& invocation, bool json) {
+  try {
+    const int code = invocation.run();
+    if (std::fflush(stdout) != 0) throw Error(ExitCode::output, "standard output", "cannot be written");
+    return code;
+  } catch (const Error& error) {
+    return report(error, json);
+  } catch (const std::bad_alloc&) {
+    return report(Error(ExitCode::limit, "", "out of memory"), json);
+  } catch (const std::exception& error) {
+    return report(Error(ExitCode::internal, "", std::string("internal error: ") + error.what()), json);
+  }
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv, const std::vector<AddVerb>& verbs) {
+  // Numbers in configs, LUTs and metadata have a point, wherever the program runs.
+  std::setlocale(LC_ALL, "C");
+  remove_unfinished_files_on_signals();
+  CLI::App program("Shows images as the dark-adapted eye sees them: rods, cones, and the way between.",
+                   "scotopic");
+  program.set_version_flag("--version", "scotopic " SCOTOPIC_VERSION);
+  program.require_subcommand(1);
+  Invocation invocation;
+  for (const AddVerb add : verbs) add(program, invocation);
+  const bool json = asks_for_json(argc, argv);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& wish) {
+    return program.exit(wish);
+  } catch (const CLI::ParseError& error) {
+    return report(usage_error(program, error, argc, argv), json);
+  }
+  return run_verb(invocation, json);
+}
+
+}  // namespace scotopic

@@ -1,0 +1,37 @@
+// The program around its verbs: each adds itself, the command line picks one.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <vector>
+
+#include "cli/console.h"
+
+namespace scotopic {
+
+/// What the command line asked for; a verb sets it when it is the one.
+struct Invocation {
+  std::function<int()> run;
+  const CommonOptions* common = nullptr;
+};
+
+/// Adds a subcommand with its options and help; on the command line it sets the invocation.
+using AddVerb = void (*)(CLI::App& program, Invocation& invocation);
+
+/// Parses, runs, reports; returns the exit code. Never throws.
+int run_program(int argc, char** argv, const std::vector<AddVerb>& verbs);
+
+/// Sets the invocation to `run` with these options when the verb is on the command line.
+template <typename Options>
+void on_command_line(CLI::App& verb, Invocation& invocation, const std::shared_ptr<Options>& options,
+                     int (*run)(const Options&)) {
+  verb.callback([&invocation, options, run] {
+    invocation.common = &options->common;
+    invocation.run = [options, run] { return run(*options); };
+  });
+}
+
+// The verbs, one file each.
+void add_apply(CLI::App& program, Invocation& invocation);
+
+}  // namespace scotopic

@@ -1,0 +1,35 @@
+// La and the unit of an image: which numbers are used, and where each comes from.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace scotopic {
+
+struct SceneNumbers {
+  double adaptation = 0;       ///< La, cd/m2
+  double white_luminance = 0;  ///< cd/m2 of image value 1
+  std::string adaptation_source;
+  std::string white_luminance_source;
+};
+
+/// What is known before a pixel is read.
+struct KnownNumbers {
+  std::optional<double> adaptation;       ///< --adaptation
+  std::optional<double> white_luminance;  ///< --white-luminance
+  std::optional<double> file_unit;        ///< the file's own
+  std::string file_unit_source;
+};
+
+/// True if the picture's log-average luminance is needed. Error(usage) if that alone would not do: an average
+/// in image values tells no luminance where nobody knows the unit.
+bool needs_measurement(const KnownNumbers& known, const std::string& file);
+
+/// The user's unit, else the file's, else La/.18: the scene's middle grey is what the eye is adapted to.
+/// `log_average` in image values, where needed; Error(input) if it is 0.
+SceneNumbers settle(const KnownNumbers& known, double log_average, const std::string& file);
+
+/// "adaptation .1 cd/m2 (--adaptation), image value 1 is .55 cd/m2 (...)".
+std::string describe(const SceneNumbers& numbers);
+
+}  // namespace scotopic
