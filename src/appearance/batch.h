@@ -24,8 +24,8 @@ struct PixelRows {
 };
 
 /// Number type inside; planes are float either way. single: error <= 2e-6 of the pixel's largest component,
-/// in or out, over 1e-6 to 1e6 cd/m2 (tests/appearance); colours whose luminance is the rest of a cancellation are computed
-/// in double. dual: double inside, rounded once.
+/// in or out, over 1e-6 to 1e6 cd/m2 (tests/appearance, tests/properties); colours whose luminance is the rest of a
+/// cancellation, or with a negative cone signal, are computed in double. dual: double inside, rounded once.
 enum class Precision { single, dual };
 
 /// The operator with everything that does not depend on the pixel worked out once. Immutable: share it

@@ -43,7 +43,7 @@ struct BatchConstants {
   std::array<T, log_terms> log_series;        // log2 f = s sum_k log_series[k] s^2k, s = (f-1)/(f+1)
 
   // Receptors and kernel.
-  Vec3<T> y_row, y_magnitude;                 // luminance; its coefficients' magnitudes
+  Vec3<T> y_row, size_from_rgb;               // luminance; see OperatorConstants
   Matrix3<T> lms_from_rgb, rgb_from_lms, xyz_from_rgb;
   Vec3<T> rod_row;                            // rods, linear estimate
   T rod_floor;                                // smallest rod signal, times Y
@@ -60,7 +60,7 @@ struct BatchConstants {
 
   // Luminance and chroma.
   T rods_weight;                              // rho C
-  T inverse_rod_white, luminance, luminance_goal, floor;
+  T inverse_rod_white, luminance_left, luminance_goal, floor;  // luminance_left: 1 - its strength
   Vec3<T> inverse_cone_white;
   T chroma, chroma_at_5, chroma_half;
 };
@@ -97,7 +97,7 @@ BatchConstants<T>::BatchConstants(const OperatorConstants& c) {
     log_series[k] = t(2 / std::numbers::ln2 / static_cast<double>(2 * k + 1));
 
   y_row = rounded<T>(c.luminance_from_rgb);
-  for (std::size_t i = 0; i < 3; ++i) y_magnitude[i] = std::abs(y_row[i]);
+  size_from_rgb = rounded<T>(c.size_from_rgb);
   lms_from_rgb = c.lms_from_rgb.to<T>();
   xyz_from_rgb = p.xyz_from_rgb.to<T>();
   const double per_scotopic = rod_signal_per_scotopic_luminance();
@@ -124,7 +124,7 @@ BatchConstants<T>::BatchConstants(const OperatorConstants& c) {
 
   rods_weight = t(sp_ratio_d65 * mes2_efficacy_ratio);
   inverse_rod_white = t(1 / c.rod_white);
-  luminance = t(c.luminance);
+  luminance_left = t(1 - c.luminance);
   luminance_goal = t(c.luminance_goal);
   floor = t(luminance_floor);
   for (std::size_t i = 0; i < 3; ++i) inverse_cone_white[i] = t(1 / c.cone_white[i]);

@@ -10,6 +10,8 @@
 
 #include <hwy/highway.h>
 
+#include <type_traits>
+
 #include "appearance/batch_constants.h"
 #include "appearance/stages.h"
 
@@ -37,30 +39,35 @@ class PixelOperator {
   using V = hn::Vec<D>;
   using M = hn::Mask<D>;
   using I = hwy::MakeSigned<T>;
+  static constexpr bool needs_more_digits = std::is_same_v<T, float>;
 
  public:
   PixelOperator(D d, const BatchConstants<T>& k) : d_(d), k_(k) {}
 
   /// Changes the pixels that the operator has something to do to; says which. Of these, `doubtful` are those
-  /// whose luminance is what is left of a cancellation: more digits are needed to get it right.
+  /// that need more digits: whose luminance is what is left of a cancellation, or with a negative cone signal,
+  /// which the rods' may cancel under the kernel's root.
   M operator()(PixelVector<V>& p, M& doubtful) const {
     M active = operable(p);
     doubtful = hn::Lt(one(), hn::Zero(d_));
-    if (k_.safko) return safko(p, active);
+    if (k_.safko) return safko(p, active, doubtful);
     const V y = dot(k_.y_row, p.rgb);
     V local = hn::Set(d_, k_.adaptation);
     if (k_.local) local = hn::Add(local, hn::Max(hn::Zero(d_), hn::Mul(y, set(k_.unit))));
     active = hn::And(active, hn::Lt(local, set(T(photopic_luminance))));
     if (hn::AllFalse(d_, active)) return active;
-    const Triple<V> magnitude = {hn::Abs(p.rgb.x), hn::Abs(p.rgb.y), hn::Abs(p.rgb.z)};
-    doubtful = hn::And(active, hn::Lt(y, hn::Mul(set(T(0.5)), dot(k_.y_magnitude, magnitude))));
+    Triple<V> cones = times(k_.lms_from_rgb, p.rgb);
+    const V size = dot(k_.size_from_rgb, {hn::Abs(p.rgb.x), hn::Abs(p.rgb.y), hn::Abs(p.rgb.z)});
+    if constexpr (needs_more_digits) {
+      doubtful = hn::Lt(y, hn::Mul(set(T(0.5)), size));
+      doubtful = hn::And(active, hn::Or(doubtful, below_zero(p.has_cones ? p.cones : cones)));
+    }
 
     const V share = rod_share(local);
-    Triple<V> cones = times(k_.lms_from_rgb, p.rgb);
     const V rod = rod_signal(p, y);
     Triple<V> rgb = p.rgb;
     if (k_.do_shift) rgb = shifted(p, cones, rod, share);
-    if (k_.do_luminance) rgb = with_luminance(rgb, cones, y, rod, share);
+    if (k_.do_luminance) rgb = with_luminance(rgb, hn::Max(size, largest_cone(cones)), y, rod, share);
     if (k_.do_chroma) rgb = with_chroma(rgb, local);
     p.rgb = select(active, rgb, p.rgb);
     return active;
@@ -88,6 +95,8 @@ class PixelOperator {
             hn::IfThenElse(mask, yes.z, no.z)};
   }
   V smallest(const Triple<V>& v) const { return hn::Min(hn::Min(v.x, v.y), v.z); }
+
+  M below_zero(const Triple<V>& v) const { return hn::Lt(smallest(v), hn::Zero(d_)); }
 
   // False for NaN, too.
   M operable(V v) const { return hn::Le(hn::Abs(v), set(T(operable_limit))); }
@@ -164,25 +173,28 @@ class PixelOperator {
     return hn::Div(rod, hn::Sqrt(hn::Add(one(), hn::Max(hn::Zero(d_), signal))));
   }
 
+  // The shifted and projected colour; `cones`, of the colour that came in, become those of the result.
   Triple<V> shifted(const PixelVector<V>& p, Triple<V>& cones, V rod, V share) const {
     const V w = hn::Mul(set(k_.shift), share);
     const Triple<V> response = scaled(w, rod_response(p.has_cones ? p.cones : cones, rod));
     cones = sum(cones, times(k_.lms_shift, response));
     const Triple<V> moved = sum(p.rgb, times(k_.rgb_shift, response));
-    const Triple<V> rgb = k_.project ? projected(moved, p.rgb) : moved;
+    const Triple<V> rgb = k_.project ? projected(moved, p.rgb, cones) : moved;
     return select(hn::Gt(w, hn::Zero(d_)), rgb, p.rgb);
   }
 
-  Triple<V> projected(const Triple<V>& moved, const Triple<V>& in) const {
+  Triple<V> projected(const Triple<V>& moved, const Triple<V>& in, Triple<V>& cones) const {
     const Triple<V> target = k_.gamut_is_rgb ? moved : times(k_.gamut_from_rgb, moved);
     const Triple<V> source = k_.gamut_is_rgb ? in : times(k_.gamut_from_rgb, in);
     const V zero = hn::Zero(d_);
     const Triple<V> bound = {hn::Min(zero, source.x), hn::Min(zero, source.y), hn::Min(zero, source.z)};
     const Triple<V> z = difference(target, bound);
-    const M outside = hn::Lt(smallest(z), zero);
+    const M outside = below_zero(z);
     if (hn::AllFalse(d_, outside)) return moved;
-    const Triple<V> inside = sum(nearest(z), bound);
-    return select(outside, k_.gamut_is_rgb ? inside : times(k_.rgb_from_gamut, inside), moved);
+    const Triple<V> nearest_inside = sum(nearest(z), bound);
+    const Triple<V> inside = k_.gamut_is_rgb ? nearest_inside : times(k_.rgb_from_gamut, nearest_inside);
+    cones = select(outside, times(k_.lms_from_rgb, inside), cones);
+    return select(outside, inside, moved);
   }
 
   // GamutProjection::nearest for z outside; see there.
@@ -213,17 +225,23 @@ class PixelOperator {
     return hn::Add(y, hn::Mul(weight, hn::Sub(hn::Mul(rod, set(k_.inverse_rod_white)), y)));
   }
 
-  Triple<V> with_luminance(const Triple<V>& rgb, const Triple<V>& cones, V y, V rod, V share) const {
+  // The greatest magnitude of the cone signals, white's being 1.
+  V largest_cone(const Triple<V>& cones) const {
+    return hn::Max(hn::Max(hn::Abs(hn::Mul(cones.x, set(k_.inverse_cone_white[0]))),
+                           hn::Abs(hn::Mul(cones.y, set(k_.inverse_cone_white[1])))),
+                   hn::Abs(hn::Mul(cones.z, set(k_.inverse_cone_white[2]))));
+  }
+
+  // luminance_ratio() of reference.h, and what leads to it.
+  Triple<V> with_luminance(const Triple<V>& rgb, V largest, V y, V rod, V share) const {
     const V from = dot(k_.y_row, rgb);
     const V goal = hn::Add(y, hn::Mul(set(k_.luminance_goal), hn::Sub(policy_luminance(y, rod, share), y)));
-    const V to = hn::Add(from, hn::Mul(set(k_.luminance), hn::Sub(goal, from)));
-    const V largest = hn::Max(hn::Max(hn::Abs(hn::Mul(cones.x, set(k_.inverse_cone_white[0]))),
-                                      hn::Abs(hn::Mul(cones.y, set(k_.inverse_cone_white[1])))),
-                              hn::Abs(hn::Mul(cones.z, set(k_.inverse_cone_white[2]))));
+    const V to = hn::Add(goal, hn::Mul(set(k_.luminance_left), hn::Sub(from, goal)));
     const V zero = hn::Zero(d_);
     const V f = hn::Max(hn::Abs(from), hn::Mul(set(k_.floor), largest));
     const V u = hn::Div(from, f);
-    V ratio = hn::Add(hn::Mul(u, hn::Div(to, f)), hn::Sub(one(), hn::Mul(u, u)));
+    // Not u (to/f): 0 times infinity is no number.
+    V ratio = hn::Add(hn::Div(hn::Mul(u, to), f), hn::Sub(one(), hn::Mul(u, u)));
     ratio = hn::Min(hn::Max(ratio, zero), set(T(1e18)));
     ratio = hn::IfThenElse(hn::Gt(f, zero), ratio, one());
     return scaled(ratio, rgb);
@@ -238,8 +256,9 @@ class PixelOperator {
     return select(hn::Lt(keep, one()), faded, rgb);
   }
 
-  M safko(PixelVector<V>& p, M active) const {
+  M safko(PixelVector<V>& p, M active, M& doubtful) const {
     const Triple<V> q = p.has_cones ? p.cones : times(k_.lms_from_rgb, p.rgb);
+    if constexpr (needs_more_digits) doubtful = hn::And(active, below_zero(q));
     const V rod = rod_signal(p, dot(k_.y_row, p.rgb));
     const Triple<V> rgb = sum(times(k_.rgb_from_lms, q), times(k_.rgb_shift, rod_response(q, rod)));
     p.rgb = select(active, rgb, p.rgb);

@@ -49,8 +49,9 @@ double luminance_ratio(double from, double to, double largest) noexcept {
   const double f = std::max(std::abs(from), luminance_floor * largest);
   if (!(f > 0)) return 1;
   const double u = from / f;
-  constexpr double cap = 1e18;  // reached only by colours that are black but for a rod signal of their own
-  return std::clamp(u * (to / f) + (1 - u * u), 0.0, cap);
+  constexpr double cap = 1e18;
+  // Not u (to/f): 0 times infinity is no number.
+  return std::clamp(u * to / f + (1 - u * u), 0.0, cap);
 }
 
 AppearanceReference::AppearanceReference(const AppearanceParameters& parameters)
@@ -58,14 +59,12 @@ AppearanceReference::AppearanceReference(const AppearanceParameters& parameters)
   if (c_.project) projection_.emplace(lms_from_xyz() * *parameters.xyz_from_gamut);
 }
 
-Vec3<double> AppearanceReference::shifted(const Light& in, Vec3<double>& cones) const noexcept {
+Vec3<double> AppearanceReference::shifted(const Light& in) const noexcept {
   const double unit = c_.parameters.white_luminance;
   const double w = c_.shift * (1 - in.m);
   if (!(w > 0)) return in.rgb;
   const Vec3<double> dq = c_.kernel.shift(scaled(unit, in.cones), unit * in.rod);
-  const Vec3<double> moved = scaled(w / unit, dq);
-  cones = sum(cones, moved);
-  return projected(sum(in.rgb, c_.rgb_from_lms * moved), in.rgb);
+  return projected(sum(in.rgb, c_.rgb_from_lms * scaled(w / unit, dq)), in.rgb);
 }
 
 Vec3<double> AppearanceReference::projected(const Vec3<double>& rgb, const Vec3<double>& in) const noexcept {
@@ -83,14 +82,15 @@ Vec3<double> AppearanceReference::projected(const Vec3<double>& rgb, const Vec3<
   return c_.gamut_is_rgb ? result : c_.rgb_from_gamut * result;
 }
 
-Vec3<double> AppearanceReference::with_luminance(const Vec3<double>& rgb, const Vec3<double>& cones,
-                                                 const Light& in) const noexcept {
+Vec3<double> AppearanceReference::with_luminance(const Vec3<double>& rgb, const Light& in) const noexcept {
   if (!(c_.luminance > 0)) return rgb;
   const double from = dot(c_.luminance_from_rgb, rgb);
   const double policy = policy_luminance(c_, in.photopic, in.rod, in.m);
   const double goal = in.photopic + c_.luminance_goal * (policy - in.photopic);
-  const double to = from + c_.luminance * (goal - from);
-  double largest = 0;
+  // From the goal's side: at strength 1 this is the goal to the last digit, however far `from` is.
+  const double to = goal + (1 - c_.luminance) * (from - goal);
+  double largest = dot(c_.size_from_rgb, {std::abs(in.rgb[0]), std::abs(in.rgb[1]), std::abs(in.rgb[2])});
+  const Vec3<double> cones = c_.lms_from_rgb * rgb;
   for (std::size_t i = 0; i < 3; ++i) largest = std::max(largest, std::abs(cones[i]) / c_.cone_white[i]);
   return scaled(luminance_ratio(from, to, largest), rgb);
 }
@@ -118,12 +118,10 @@ Vec3<double> AppearanceReference::operator()(const ReferencePixel& pixel) const 
   const double local = p.adaptation + (p.weight == Weight::local ? std::max(0.0, y * p.white_luminance) : 0.0);
   if (!(local < photopic_luminance)) return pixel.rgb;
 
-  Vec3<double> cones = c_.lms_from_rgb * pixel.rgb;
-  const Light in{pixel.rgb, pixel.cones.value_or(cones),
+  const Light in{pixel.rgb, pixel.cones ? *pixel.cones : c_.lms_from_rgb * pixel.rgb,
                  pixel.rod ? std::max(0.0, *pixel.rod) : rod_signal_from_rgb(c_, pixel.rgb), y,
                  mesopic_coefficient(local)};
-  const Vec3<double> shifted_rgb = shifted(in, cones);
-  return with_chroma(with_luminance(shifted_rgb, cones, in), local);
+  return with_chroma(with_luminance(shifted(in), in), local);
 }
 
 }  // namespace scotopic

@@ -16,7 +16,8 @@ struct ReferencePixel {
 
 /// Any rgb is accepted; a component (of any signal given) that is not finite, or beyond operable_limit, makes the
 /// pixel pass unchanged. Else continuous (C0) in rgb and in La. Black stays black. What La >= 5 cd/m2 or Lloc >= 5 cd/m2 leaves alone is returned
-/// bit for bit. Error against exact arithmetic: a few 1e-15 of the pixel's largest component.
+/// bit for bit. Error against exact arithmetic: 2e-13 of the pixel's largest component, in or out; 1e-8 where rods
+/// cancel a negative cone signal under the kernel's root (tests/properties).
 class AppearanceReference {
  public:
   explicit AppearanceReference(const AppearanceParameters& parameters);
@@ -28,9 +29,9 @@ class AppearanceReference {
  private:
   struct Light;  // what later stages still need of the input
 
-  Vec3<double> shifted(const Light& in, Vec3<double>& cones) const noexcept;
+  Vec3<double> shifted(const Light& in) const noexcept;
   Vec3<double> projected(const Vec3<double>& rgb, const Vec3<double>& in) const noexcept;
-  Vec3<double> with_luminance(const Vec3<double>& rgb, const Vec3<double>& cones, const Light& in) const noexcept;
+  Vec3<double> with_luminance(const Vec3<double>& rgb, const Light& in) const noexcept;
   Vec3<double> with_chroma(const Vec3<double>& rgb, double local_luminance) const noexcept;
   Vec3<double> safko(const ReferencePixel& pixel) const noexcept;
 
@@ -47,9 +48,12 @@ double policy_luminance(const OperatorConstants& constants, double photopic, dou
 
 /// Factor that takes a colour of luminance `from` to `to` at constant chromaticity:
 ///   max(0, u to/f + (1 - u^2)),  f = max(|from|, luminance_floor * largest),  u = from/f,
-/// largest: the greatest |cone signal| relative to white's. That is to/from wherever |from| is at least that floor
-/// (neutrals, lights); below, continuous, 1 when to = from, and at most |to|/(luminance_floor * largest) + 1.
-/// A luminance that would change sign becomes 0. Black (largest = 0): 1.
+/// largest: the greatest |cone signal| relative to white's of the colour to be scaled, or size_from_rgb |RGB| of the
+/// pixel that came in, if greater: what is left of a cancellation has no chromaticity to keep. That is to/from
+/// wherever |from| is at least that floor (neutrals, lights, all that a gamut holds); below, continuous, 1 when
+/// to = from, and at most |to|/(luminance_floor * largest) + 1. A luminance that would change sign becomes 0.
+/// Black (largest = 0): 1.
+/// Never over 1e18, which only black with a rod signal of its own could ask for.
 double luminance_ratio(double from, double to, double largest) noexcept;
 
 }  // namespace scotopic

@@ -161,8 +161,9 @@ template <typename Real>
 Real regularised_ratio(const Real& from, const Real& to, const Real& largest) {
   if (!(largest > Real(0))) return Real(1);
   const Real least = largest / Real(64), size = abs(from);
-  const Real f = size > least ? size : least, u = from / f;
-  return at_least_0(Real(u * to / f + (Real(1) - u * u)));
+  const Real f = size > least ? size : least, u = from / f, cap = dec<Real>("1e18");
+  const Real ratio = at_least_0(Real(u * to / f + (Real(1) - u * u)));
+  return ratio < cap ? ratio : cap;
 }
 
 }  // namespace
@@ -330,8 +331,12 @@ Vec3<Real> ExactOperator<Real>::operator()(const ReferencePixel& pixel) const {
   if (p.luminance != LuminancePolicy::none && p.strength.luminance > 0) {
     const Real from = dot(s_.xyz_from_rgb[1], out), goal = y + all * (policy_luminance(y, at_least_0(rod), m) - y);
     const Real to = from + Real(p.strength.luminance) * (goal - from);
-    const Vec3<Real> cones = s_.lms_from_rgb * out;
     Real largest(0);
+    const Vec3<Real> cones = s_.lms_from_rgb * out;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Real coefficient = abs(s_.xyz_from_rgb[1][i]), least = Real(1) / Real(64);
+      largest = largest + (coefficient > least ? coefficient : least) * abs(rgb[i]);
+    }
     for (std::size_t i = 0; i < 3; ++i) {
       const Real relative = abs(Real(cones[i] / s_.cone_white[i]));
       if (relative > largest) largest = relative;
