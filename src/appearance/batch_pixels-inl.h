@@ -33,7 +33,9 @@ struct PixelVector {
   bool has_cones, has_rod;
 };
 
-template <class D>
+/// `usual`: RGB alone comes in, the stages are those of a look with every default, and the code for all else is left
+/// out. The same arithmetic, hence the same bits.
+template <class D, bool usual = false>
 class PixelOperator {
   using T = hn::TFromD<D>;
   using V = hn::Vec<D>;
@@ -47,35 +49,41 @@ class PixelOperator {
   /// Changes the pixels that the operator has something to do to; says which. Of these, `doubtful` are those
   /// that need more digits: whose luminance is what is left of a cancellation, or with a negative cone signal,
   /// which the rods' may cancel under the kernel's root.
-  M operator()(PixelVector<V>& p, M& doubtful) const {
+  HWY_INLINE M operator()(PixelVector<V>& p, M& doubtful) const {
     M active = operable(p);
     doubtful = hn::Lt(one(), hn::Zero(d_));
-    if (k_.safko) return safko(p, active, doubtful);
+    if (!usual && k_.safko) return safko(p, active, doubtful);
     const V y = dot(k_.y_row, p.rgb);
     V local = hn::Set(d_, k_.adaptation);
-    if (k_.local) local = hn::Add(local, hn::Max(hn::Zero(d_), hn::Mul(y, set(k_.unit))));
+    if (usual || k_.local) local = hn::Add(local, hn::Max(hn::Zero(d_), hn::Mul(y, set(k_.unit))));
     active = hn::And(active, hn::Lt(local, set(T(photopic_luminance))));
     if (hn::AllFalse(d_, active)) return active;
     Triple<V> cones = times(k_.lms_from_rgb, p.rgb);
     const V size = dot(k_.size_from_rgb, {hn::Abs(p.rgb.x), hn::Abs(p.rgb.y), hn::Abs(p.rgb.z)});
     if constexpr (needs_more_digits) {
       doubtful = hn::Lt(y, hn::Mul(set(T(0.5)), size));
-      doubtful = hn::And(active, hn::Or(doubtful, below_zero(p.has_cones ? p.cones : cones)));
+      doubtful = hn::And(active, hn::Or(doubtful, below_zero(has_cones(p) ? p.cones : cones)));
     }
 
     const V share = rod_share(local);
     const V rod = rod_signal(p, y);
     Triple<V> rgb = p.rgb;
-    if (k_.do_shift) rgb = shifted(p, cones, rod, share);
-    if (k_.do_luminance) rgb = with_luminance(rgb, hn::Max(size, largest_cone(cones)), y, rod, share);
-    if (k_.do_chroma) rgb = with_chroma(rgb, local);
+    if (usual || k_.do_shift) rgb = shifted(p, cones, rod, share);
+    if (usual || k_.do_luminance) rgb = with_luminance(rgb, hn::Max(size, largest_cone(cones)), y, rod, share);
+    if (usual || k_.do_chroma) rgb = with_chroma(rgb, local);
     p.rgb = select(active, rgb, p.rgb);
     return active;
   }
 
  private:
+  static bool has_cones(const PixelVector<V>& p) { return !usual && p.has_cones; }
+  static bool has_rod(const PixelVector<V>& p) { return !usual && p.has_rod; }
+  bool gamut_is_rgb() const { return usual || k_.gamut_is_rgb; }
+
   V set(T x) const { return hn::Set(d_, x); }
   V one() const { return set(T(1)); }
+  // Divisors of lanes whose quotient is not used must not be 0 either.
+  V positive_or_one(V x) const { return hn::IfThenElse(hn::Gt(x, hn::Zero(d_)), x, one()); }
 
   V dot(const Vec3<T>& row, const Triple<V>& v) const {
     return hn::Add(hn::Add(hn::Mul(set(row[0]), v.x), hn::Mul(set(row[1]), v.y)), hn::Mul(set(row[2]), v.z));
@@ -103,8 +111,8 @@ class PixelOperator {
   M operable(const Triple<V>& v) const { return hn::And(hn::And(operable(v.x), operable(v.y)), operable(v.z)); }
   M operable(const PixelVector<V>& p) const {
     M yes = operable(p.rgb);
-    if (p.has_cones) yes = hn::And(yes, operable(p.cones));
-    if (p.has_rod) yes = hn::And(yes, operable(p.rod));
+    if (has_cones(p)) yes = hn::And(yes, operable(p.cones));
+    if (has_rod(p)) yes = hn::And(yes, operable(p.rod));
     return yes;
   }
 
@@ -142,8 +150,8 @@ class PixelOperator {
   }
 
   V rod_signal(const PixelVector<V>& p, V y) const {
-    if (p.has_rod) return hn::Max(hn::Zero(d_), p.rod);
-    const V estimate = k_.quadratic_rods ? quadratic_rod(p.rgb) : dot(k_.rod_row, p.rgb);
+    if (has_rod(p)) return hn::Max(hn::Zero(d_), p.rod);
+    const V estimate = !usual && k_.quadratic_rods ? quadratic_rod(p.rgb) : dot(k_.rod_row, p.rgb);
     return hn::Max(hn::Max(estimate, hn::Mul(set(k_.rod_floor), y)), hn::Zero(d_));
   }
 
@@ -153,8 +161,9 @@ class PixelOperator {
     const V big_x = hn::Max(xyz.x, zero);
     const V big_y = hn::Max(xyz.y, zero);
     const V total = hn::Add(hn::Add(big_x, big_y), hn::Max(xyz.z, zero));
-    const V x = hn::Div(big_x, total);
-    const V y = hn::Div(big_y, total);
+    const V divisor = positive_or_one(total);
+    const V x = hn::Div(big_x, divisor);
+    const V y = hn::Div(big_y, divisor);
     const auto& c = k_.rod_quadratic;
     V sum = hn::Add(set(c[0]), hn::Add(hn::Mul(set(c[1]), x), hn::Mul(set(c[2]), y)));
     sum = hn::Add(sum, hn::Mul(hn::Mul(set(c[3]), x), x));
@@ -176,23 +185,23 @@ class PixelOperator {
   // The shifted and projected colour; `cones`, of the colour that came in, become those of the result.
   Triple<V> shifted(const PixelVector<V>& p, Triple<V>& cones, V rod, V share) const {
     const V w = hn::Mul(set(k_.shift), share);
-    const Triple<V> response = scaled(w, rod_response(p.has_cones ? p.cones : cones, rod));
+    const Triple<V> response = scaled(w, rod_response(has_cones(p) ? p.cones : cones, rod));
     cones = sum(cones, times(k_.lms_shift, response));
     const Triple<V> moved = sum(p.rgb, times(k_.rgb_shift, response));
-    const Triple<V> rgb = k_.project ? projected(moved, p.rgb, cones) : moved;
+    const Triple<V> rgb = usual || k_.project ? projected(moved, p.rgb, cones) : moved;
     return select(hn::Gt(w, hn::Zero(d_)), rgb, p.rgb);
   }
 
   Triple<V> projected(const Triple<V>& moved, const Triple<V>& in, Triple<V>& cones) const {
-    const Triple<V> target = k_.gamut_is_rgb ? moved : times(k_.gamut_from_rgb, moved);
-    const Triple<V> source = k_.gamut_is_rgb ? in : times(k_.gamut_from_rgb, in);
+    const Triple<V> target = gamut_is_rgb() ? moved : times(k_.gamut_from_rgb, moved);
+    const Triple<V> source = gamut_is_rgb() ? in : times(k_.gamut_from_rgb, in);
     const V zero = hn::Zero(d_);
     const Triple<V> bound = {hn::Min(zero, source.x), hn::Min(zero, source.y), hn::Min(zero, source.z)};
     const Triple<V> z = difference(target, bound);
     const M outside = below_zero(z);
     if (hn::AllFalse(d_, outside)) return moved;
     const Triple<V> nearest_inside = sum(nearest(z), bound);
-    const Triple<V> inside = k_.gamut_is_rgb ? nearest_inside : times(k_.rgb_from_gamut, nearest_inside);
+    const Triple<V> inside = gamut_is_rgb() ? nearest_inside : times(k_.rgb_from_gamut, nearest_inside);
     cones = select(outside, times(k_.lms_from_rgb, inside), cones);
     return select(outside, inside, moved);
   }
@@ -219,7 +228,7 @@ class PixelOperator {
   }
 
   V policy_luminance(V y, V rod, V share) const {
-    if (!k_.mesopic_policy) return y;
+    if (!usual && !k_.mesopic_policy) return y;
     const V rods = hn::Mul(share, set(k_.rods_weight));
     const V weight = hn::Div(rods, hn::Add(hn::Sub(one(), share), rods));
     return hn::Add(y, hn::Mul(weight, hn::Sub(hn::Mul(rod, set(k_.inverse_rod_white)), y)));
