@@ -248,9 +248,10 @@ class PixelOperator {
     const V to = hn::Add(goal, hn::Mul(set(k_.luminance_left), hn::Sub(from, goal)));
     const V zero = hn::Zero(d_);
     const V f = hn::Max(hn::Abs(from), hn::Mul(set(k_.floor), largest));
-    const V u = hn::Div(from, f);
+    const V divisor = positive_or_one(f);
+    const V u = hn::Div(from, divisor);
     // Not u (to/f): 0 times infinity is no number.
-    V ratio = hn::Add(hn::Div(hn::Mul(u, to), f), hn::Sub(one(), hn::Mul(u, u)));
+    V ratio = hn::Add(hn::Div(hn::Mul(u, to), divisor), hn::Sub(one(), hn::Mul(u, u)));
     ratio = hn::Min(hn::Max(ratio, zero), set(T(1e18)));
     ratio = hn::IfThenElse(hn::Gt(f, zero), ratio, one());
     return scaled(ratio, rgb);
