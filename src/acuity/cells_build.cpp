@@ -34,11 +34,17 @@ struct Part {
   int begin, end;
   Quad lab_x, rgb_y;  // means
   Quad variance;      // of lab_x
-  float widest;       // largest variance of L, a, b
+  float urgency;      // of dividing it: count times variance up to urgent_variance; 0: narrow enough
   int widest_channel;
 };
 
-HWY_INLINE Part measured(const CellPixel* pixels, int begin, int end) {
+/// In units of the range kernel's variance, scaled: beyond these a cluster's spread counts no more, for which
+/// to divide first and for how wide it looks. Pixels too far apart for one cluster must not look like a
+/// little of everything between them. Both measured to be near the best on HDR images.
+constexpr float range_variance = static_cast<float>(0.5 / weight_end);
+constexpr float urgent_variance = 10.0f * range_variance, widest_variance = 4.0f * range_variance;
+
+HWY_INLINE Part measured(const Constants& c, const CellPixel* pixels, int begin, int end) {
   Part part{begin, end, pixels[begin].lab_x, pixels[begin].rgb_y, Quad{}, 0.0f, 0};
   if (end - begin == 1) return part;
   // Sums of differences from the first pixel: equal pixels have exactly their own mean.
@@ -57,7 +63,9 @@ HWY_INLINE Part measured(const CellPixel* pixels, int begin, int end) {
   part.variance *= per_pixel;
   part.widest_channel = part.variance[1] > part.variance[0] ? 1 : 0;
   if (part.variance[2] > part.variance[part.widest_channel]) part.widest_channel = 2;
-  part.widest = part.variance[part.widest_channel];
+  const float widest = part.variance[part.widest_channel];
+  if (widest > c.split_variance)
+    part.urgency = static_cast<float>(end - begin) * std::min(widest, urgent_variance);
   return part;
 }
 
@@ -78,7 +86,9 @@ HWY_INLINE void light_slopes(const Constants& c, Quad lab, Quad (&slopes)[3]) {
 
 HWY_INLINE void store_cluster(const Constants& c, const Part& part, Cluster& out) {
   constexpr float ends = static_cast<float>(2.0 * weight_end);
-  const Quad gain = 1.0f / (1.0f + ends * part.variance);
+  Quad variance = part.variance;
+  for (int k = 0; k < 3; ++k) variance[k] = std::min(variance[k], widest_variance);
+  const Quad gain = 1.0f / (1.0f + ends * variance);
   const Quad root{std::sqrt(gain[0]), std::sqrt(gain[1]), std::sqrt(gain[2]), 1.0f};
   const Quad lab = part.lab_x * root;
   Quad slopes[3];
@@ -91,22 +101,21 @@ HWY_INLINE void store_cluster(const Constants& c, const Part& part, Cluster& out
     out.values[cluster_lab + k] = lab[k];
     out.values[cluster_light + k] = part.rgb_y[k];
     for (int j = 0; j < 3; ++j)
-      out.values[cluster_slope + 3 * k + j] = slopes[j][k] * (ends * part.variance[j] * root[j]);
+      out.values[cluster_slope + 3 * k + j] = slopes[j][k] * (ends * variance[j] * root[j]);
   }
 }
 
 constexpr int clusters_at_most = 32;
 
-/// Divides the widest part at its mean until all are narrow, and appends the clusters.
+/// Divides the part that most needs it at its mean until all are narrow, and appends the clusters.
 HWY_INLINE void append_clusters(const Constants& c, CellPixel* pixels, int count,
                                 std::vector<Cluster>& clusters) {
   Part parts[clusters_at_most];
-  int used = 1;
-  parts[0] = measured(pixels, 0, count);
-  int widest = 0;
+  int used = 1, next = 0;
+  parts[0] = measured(c, pixels, 0, count);
   const int most = std::min(c.most_clusters, clusters_at_most);
-  while (parts[widest].widest > c.split_variance && used < most) {
-    Part& part = parts[widest];
+  while (parts[next].urgency > 0.0f && used < most) {
+    Part& part = parts[next];
     const int channel = part.widest_channel;
     const float at = part.lab_x[channel];
     const int begin = part.begin, end = part.end;
@@ -114,14 +123,14 @@ HWY_INLINE void append_clusters(const Constants& c, CellPixel* pixels, int count
                                        [=](const CellPixel& p) { return p.lab_x[channel] < at; });
     const int split = static_cast<int>(middle - pixels);
     if (split == begin || split == end) {  // rounding put the mean at an extreme
-      part.widest = 0.0f;
+      part.urgency = 0.0f;
     } else {
-      parts[widest] = measured(pixels, begin, split);
-      parts[used++] = measured(pixels, split, end);
+      parts[next] = measured(c, pixels, begin, split);
+      parts[used++] = measured(c, pixels, split, end);
     }
-    widest = 0;
+    next = 0;
     for (int i = 1; i < used; ++i)
-      if (parts[i].widest > parts[widest].widest) widest = i;
+      if (parts[i].urgency > parts[next].urgency) next = i;
   }
   const std::size_t at = clusters.size();
   clusters.resize(at + static_cast<std::size_t>(used));
