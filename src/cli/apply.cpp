@@ -7,6 +7,7 @@
 #include "cli/operator_options.h"
 #include "cli/program.h"
 #include "cli/scene_numbers.h"
+#include "cli/spectral_options.h"
 #include "image/apply_image.h"
 #include "scene/plan.h"
 
@@ -17,27 +18,10 @@ struct ApplyOptions {
   std::string input;
   std::string output;
   OperatorOptions appearance;
+  BandOptions bands;
   ImageOptions image;
   CommonOptions common;
 };
-
-KnownNumbers known_numbers(const OperatorChoice& choice, const PixelSource& source, const ImageLayout& layout,
-                           const Console& console) {
-  KnownNumbers known;
-  known.adaptation = choice.adaptation;
-  known.white_luminance = choice.white_luminance;
-  const LightPicture& light = layout.light.front();
-  const Picture& picture = source.pictures()[light.index];
-  const bool lmsr = light.channels.kind == ColourChannels::Kind::lmsr && picture.lmsr_unit;
-  known.file_unit = lmsr ? picture.lmsr_unit : picture.white_luminance;
-  known.file_unit_source = lmsr ? "the file's scotopic:lmsrUnit" : "the file's whiteLuminance";
-  if (known.file_unit && !(*known.file_unit > 0 && std::isfinite(*known.file_unit))) {
-    console.note(fmt::format("{}: {} of {} is no luminance, and ignored", source.file(),
-                             known.file_unit_source, *known.file_unit));
-    known.file_unit.reset();
-  }
-  return known;
-}
 
 std::vector<Attribute> stamps_of(const AppearanceParameters& p, const OperatorChoice& choice,
                                  const ImageLayout& layout) {
@@ -60,7 +44,8 @@ std::vector<Attribute> stamps_of(const AppearanceParameters& p, const OperatorCh
 }
 
 nlohmann::ordered_json result_of(const ApplyOptions& options, const SceneNumbers& numbers,
-                                 const ImageLayout& layout, const std::vector<Attribute>& stamps) {
+                                 const ImageLayout& layout, const std::vector<Attribute>& stamps,
+                                 const PixelSource& source) {
   nlohmann::ordered_json out;
   out["input"] = options.input;
   out["output"] = options.output;
@@ -72,6 +57,7 @@ nlohmann::ordered_json result_of(const ApplyOptions& options, const SceneNumbers
   for (const Attribute& stamp : stamps)
     std::visit([&](const auto& value) { out["applied"][stamp.name] = value; }, stamp.value);
   out["notes"] = layout.notes;
+  if (const auto spectral = spectral_report(source); !spectral.is_null()) out["spectral"] = spectral;
   return out;
 }
 
@@ -116,13 +102,15 @@ int run_apply(const ApplyOptions& options) {
   const Console console(options.common);
   OperatorChoice choice = understand(options.appearance);
   const ImageRequest request = understand(options.image);
+  const SpectralOptions spectral = understand(options.bands, choice.illuminant, options.image.layer);
   (void)output_format(options.output);
   const ColourConfig config = ColourConfig::in_force(options.image.config);
   check_spaces(request, config);
   set_primaries(choice, config);
   set_threads(options.common.threads);
   OutputFile file(options.output);
-  const std::unique_ptr<PixelSource> source = open_source(options.input, options.image.limits);
+  const std::unique_ptr<PixelSource> source =
+      open_input(options.input, spectral, options.image.limits, console);
   ImageLayout layout = plan_layout(*source, options.output, config, request);
   describe_layout(*source, config, layout, console);
 
@@ -139,7 +127,7 @@ int run_apply(const ApplyOptions& options) {
   const std::vector<Attribute> stamps = stamps_of(parameters, choice, layout);
   set_stamps(layout, stamps);
   apply_image(*source, layout, config, AppearanceBatch(parameters, choice.precision), file);
-  console.result(result_of(options, numbers, layout, stamps));
+  console.result(result_of(options, numbers, layout, stamps, *source));
   return static_cast<int>(ExitCode::done);
 }
 
@@ -149,13 +137,14 @@ void add_apply(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<ApplyOptions>();
   CLI::App& verb = *program.add_subcommand("apply", "An image as the dark-adapted eye sees it");
   verb.footer("Example: scotopic apply night.exr -o seen.exr --adaptation 0.05");
-  verb.add_option("input", options->input, "EXR, TIFF, PNG, JPEG or HDR; RGB, or receptor signals L, M, S, R")
+  verb.add_option("input", options->input, "EXR, TIFF, PNG, JPEG or HDR: RGB, L, M, S, R, or spectral bands")
       ->required()
       ->type_name("IN");
   verb.add_option("-o,--output", options->output, "EXR, TIFF or PNG, by its extension")
       ->required()
       ->type_name("OUT");
   add_operator_options(verb, options->appearance);
+  add_band_options(verb, options->bands);
   add_input_options(verb, options->image);
   add_output_options(verb, options->image);
   add_common_options(verb, options->common);

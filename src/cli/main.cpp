@@ -1,4 +1,7 @@
 // scotopic VERB IN... -o OUT [options]
 #include "cli/program.h"
 
-int main(int argc, char** argv) { return scotopic::run_program(argc, argv, {scotopic::add_apply}); }
+int main(int argc, char** argv) {
+  return scotopic::run_program(
+      argc, argv, {scotopic::add_apply, scotopic::add_lmsr, scotopic::add_explain});
+}

@@ -75,15 +75,6 @@ const Names<std::string>& gamuts() {
   return names;
 }
 
-double illuminant_sp(const std::string& text) {
-  const std::optional<double> ratio = parse_sp_ratio(text);
-  if (ratio) return *ratio;
-  std::vector<std::string> names;
-  for (const NamedIlluminant& illuminant : named_illuminants()) names.emplace_back(illuminant.name);
-  fail_value("--illuminant", text,
-             "an S/P ratio above 0 nor one of " + illuminant_names() + did_you_mean(text, names));
-}
-
 }  // namespace
 
 void add_operator_options(CLI::App& verb, OperatorOptions& o) {
@@ -105,7 +96,8 @@ void add_operator_options(CLI::App& verb, OperatorOptions& o) {
   add("--weight", o.weight, "local (default: a lamp stays photopic) or global", "NAME");
   add("--luminance", o.luminance, "mesopic (default), photopic, none", "NAME");
   add("--gamut", o.gamut, "Results stay in: working (default), rec709, rec2020, p3, ap1, none", "NAME");
-  add("--illuminant", o.illuminant, "S/P ratio, or of: " + illuminant_names(), "NAME|S/P");
+  add("--illuminant", o.illuminant, "S/P ratio, spectrum (nm and power a line), or of: " + illuminant_names(),
+      "NAME|S/P|FILE");
   add("--rods", o.rods, "Rods from colour: linear (default) or quadratic", "NAME");
   add("--precision", o.precision, "float (default) or double inside", "NAME");
 }
@@ -125,7 +117,8 @@ OperatorChoice understand(const OperatorOptions& o) {
   p.weight = choice("--weight", o.weight, weights());
   p.luminance = choice("--luminance", o.luminance, policies());
   out.gamut = choice("--gamut", o.gamut, gamuts());
-  p.sp_ratio = illuminant_sp(o.illuminant);
+  out.illuminant = understand_illuminant(o.illuminant);
+  p.sp_ratio = out.illuminant.sp_ratio;
   p.rods = choice("--rods", o.rods, rod_estimates());
   out.precision = choice("--precision", o.precision, precisions());
   return out;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "appearance/batch.h"
+#include "cli/spectral_options.h"
 #include "image/colour_config.h"
 
 namespace scotopic {
@@ -35,12 +36,14 @@ struct OperatorChoice {
   std::optional<double> white_luminance;  ///< nullopt: the file's, or from the adaptation
   bool plan_effects = false;              ///< --effects auto
   std::string gamut;
+  IlluminantChoice illuminant;
   Precision precision = Precision::single;
 };
 
 void add_operator_options(CLI::App& verb, OperatorOptions& options);
 
-/// Error(usage) for the first value that is not understood. Looks at nothing but the text.
+/// Error(usage) for the first value that is not understood. Looks at nothing but the text, and an
+/// illuminant.s file.
 OperatorChoice understand(const OperatorOptions& options);
 
 /// Sets the primaries: those of the config's working space, and of the gamut chosen.

@@ -33,5 +33,7 @@ void on_command_line(CLI::App& verb, Invocation& invocation, const std::shared_p
 
 // The verbs, one file each.
 void add_apply(CLI::App& program, Invocation& invocation);
+void add_lmsr(CLI::App& program, Invocation& invocation);
+void add_explain(CLI::App& program, Invocation& invocation);
 
 }  // namespace scotopic

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "image/error.h"
 
 namespace scotopic {
@@ -15,6 +17,27 @@ std::optional<double> unit_of(const KnownNumbers& known) {
 }
 
 }  // namespace
+
+KnownNumbers known_numbers(const OperatorChoice& choice, const PixelSource& source, const ImageLayout& layout,
+                           const Console& console) {
+  KnownNumbers known;
+  known.adaptation = choice.adaptation;
+  known.white_luminance = choice.white_luminance;
+  const LightPicture& light = layout.light.front();
+  const Picture& picture = source.pictures()[light.index];
+  const bool lmsr = light.channels.kind == ColourChannels::Kind::lmsr && picture.lmsr_unit;
+  const bool spectral = light.channels.kind == ColourChannels::Kind::computed;
+  known.file_unit = lmsr ? picture.lmsr_unit : picture.white_luminance;
+  known.file_unit_source = lmsr       ? "the file's scotopic:lmsrUnit"
+                           : spectral ? "spectral radiance is absolute"
+                                      : "the file's whiteLuminance";
+  if (known.file_unit && !(*known.file_unit > 0 && std::isfinite(*known.file_unit))) {
+    console.note(fmt::format("{}: {} of {} is no luminance, and ignored", source.file(),
+                             known.file_unit_source, *known.file_unit));
+    known.file_unit.reset();
+  }
+  return known;
+}
 
 bool needs_measurement(const KnownNumbers& known, const std::string& file) {
   if (known.adaptation) return false;

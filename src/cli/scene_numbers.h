@@ -4,6 +4,10 @@
 #include <optional>
 #include <string>
 
+#include "cli/console.h"
+#include "cli/operator_options.h"
+#include "image/apply_image.h"
+
 namespace scotopic {
 
 struct SceneNumbers {
@@ -20,6 +24,10 @@ struct KnownNumbers {
   std::optional<double> file_unit;        ///< the file's own
   std::string file_unit_source;
 };
+
+/// From the options and the file's header. A unit in the file that is no luminance is ignored, with a note.
+KnownNumbers known_numbers(const OperatorChoice& choice, const PixelSource& source, const ImageLayout& layout,
+                           const Console& console);
 
 /// True if the picture's log-average luminance is needed. Error(usage) if that alone would not do: an average
 /// in image values tells no luminance where nobody knows the unit.

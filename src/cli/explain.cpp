@@ -1,0 +1,131 @@
+// scotopic explain: what light a scene holds, and what it calls for.
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "adaptation/mesopic.h"
+#include "cli/image_options.h"
+#include "cli/operator_options.h"
+#include "cli/program.h"
+#include "cli/scene_numbers.h"
+#include "cli/spectral_options.h"
+#include "scene/plan.h"
+
+namespace scotopic {
+namespace {
+
+struct ExplainOptions {
+  std::string input;
+  OperatorOptions appearance;
+  BandOptions bands;
+  ImageOptions image;
+  CommonOptions common;
+};
+
+/// Luminances in cd/m2.
+struct LightNumbers {
+  double log_average, mean, least, greatest;
+  double scotopic_mean;
+  double sp_ratio;
+  double m;  ///< mesopic adaptation coefficient at La, of this light
+};
+
+LightNumbers light_of(const SceneStatistics& s, const SceneNumbers& numbers) {
+  const double unit = numbers.white_luminance;
+  const double sp = s.sp_ratio();
+  return {unit * s.log_mean_luminance(),
+          unit * s.mean_photopic(),
+          unit * static_cast<double>(s.least),
+          unit * static_cast<double>(s.greatest),
+          unit * s.mean_scotopic(),
+          sp,
+          mesopic_coefficient(numbers.adaptation, sp)};
+}
+
+void print(const LightNumbers& light, const SceneNumbers& numbers, const SceneStatistics& statistics,
+           const ScenePlan& plan) {
+  fmt::print("{}\n", describe(numbers));
+  fmt::print("photopic luminance   {:.4g} cd/m2 log-average, {:.4g} mean, {:.4g} to {:.4g}\n",
+             light.log_average, light.mean, light.least, light.greatest);
+  fmt::print("scotopic luminance   {:.4g} cd/m2 mean\n", light.scotopic_mean);
+  fmt::print("S/P ratio            {:.4g}\n", light.sp_ratio);
+  fmt::print("mesopic coefficient  {:.4g} (1 photopic, 0 scotopic)\n", light.m);
+  if (statistics.non_finite > 0) fmt::print("not finite           {} pixels\n", statistics.non_finite);
+  for (const EffectDecision& effect : plan.effects)
+    if (effect.asked || !effect.simulated)
+      fmt::print("{:<20} {}: {}\n", effect.effect,
+                 !effect.simulated ? "not simulated"
+                 : effect.runs()   ? "applies"
+                                   : "not needed",
+                 effect.reason);
+}
+
+nlohmann::ordered_json result_of(const ExplainOptions& options, const LightNumbers& light,
+                                 const SceneNumbers& numbers, const SceneStatistics& statistics,
+                                 const ScenePlan& plan, const PixelSource& source) {
+  nlohmann::ordered_json out;
+  out["input"] = options.input;
+  out["adaptation"] = numbers.adaptation;
+  out["adaptationSource"] = numbers.adaptation_source;
+  out["whiteLuminance"] = numbers.white_luminance;
+  out["whiteLuminanceSource"] = numbers.white_luminance_source;
+  out["photopic"] = {{"logAverage", light.log_average},
+                     {"mean", light.mean},
+                     {"least", light.least},
+                     {"greatest", light.greatest}};
+  out["scotopic"] = {{"mean", light.scotopic_mean}};
+  out["spRatio"] = light.sp_ratio;
+  out["mesopicCoefficient"] = light.m;
+  out["nonFinite"] = statistics.non_finite;
+  out["spectral"] = spectral_report(source);
+  for (const EffectDecision& e : plan.effects)
+    out["effects"][std::string(e.effect)] = {
+        {"simulated", e.simulated}, {"asked", e.asked}, {"runs", e.runs()},  {"number", e.number},
+        {"threshold", e.threshold}, {"unit", e.unit},   {"reason", e.reason}};
+  return out;
+}
+
+int run_explain(const ExplainOptions& options) {
+  const Console console(options.common);
+  OperatorChoice choice = understand(options.appearance);
+  const ImageRequest request = understand(options.image);
+  const SpectralOptions spectral = understand(options.bands, choice.illuminant, options.image.layer);
+  const ColourConfig config = ColourConfig::in_force(options.image.config);
+  check_spaces(request, config);
+  set_primaries(choice, config);
+  set_threads(options.common.threads);
+  const std::unique_ptr<PixelSource> source =
+      open_input(options.input, spectral, options.image.limits, console);
+  // Nothing is written: the layout only says where the light is.
+  const ImageLayout layout = plan_layout(*source, "none.exr", config, request);
+
+  const KnownNumbers known = known_numbers(choice, *source, layout, console);
+  (void)needs_measurement(known, source->file());
+  const SceneStatistics statistics = measure_image(*source, layout, config, choice.parameters);
+  const SceneNumbers numbers = settle(known, statistics.log_mean_luminance(), source->file());
+  choice.parameters.adaptation = numbers.adaptation;
+  choice.parameters.white_luminance = numbers.white_luminance;
+  PlanRequest plan_request;
+  plan_request.parameters = choice.parameters;
+  const ScenePlan plan = plan_scene(plan_request, &statistics);
+  const LightNumbers light = light_of(statistics, numbers);
+  if (!console.json()) print(light, numbers, statistics, plan);
+  console.result(result_of(options, light, numbers, statistics, plan, *source));
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+void add_explain(CLI::App& program, Invocation& invocation) {
+  const auto options = std::make_shared<ExplainOptions>();
+  CLI::App& verb = *program.add_subcommand("explain", "What light a scene holds, and what it calls for");
+  verb.footer("Example: scotopic explain night.exr --white-luminance 10");
+  verb.add_option("input", options->input, "As for apply")->required()->type_name("IN");
+  add_operator_options(verb, options->appearance);
+  add_band_options(verb, options->bands);
+  add_input_options(verb, options->image);
+  add_common_options(verb, options->common);
+  on_command_line(verb, invocation, options, run_explain);
+}
+
+}  // namespace scotopic
