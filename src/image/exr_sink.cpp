@@ -89,6 +89,7 @@ void make_lossless(Imf::Header& header) {
   const bool lossy = c == Imf::B44_COMPRESSION || c == Imf::B44A_COMPRESSION || c == Imf::DWAA_COMPRESSION ||
                      c == Imf::DWAB_COMPRESSION || c == Imf::PXR24_COMPRESSION;
   if (!lossy) return;
+  header.setType(Imf::SCANLINEIMAGE);
   header.compression() = Imf::ZIP_COMPRESSION;
   header.erase("dwaCompressionLevel");
 }
@@ -96,6 +97,7 @@ void make_lossless(Imf::Header& header) {
 Imf::Header make_header(const PixelSource& source, const Picture& picture, std::size_t index) {
   const auto box = [](const Window& w) { return Imath::Box2i({w.x0, w.y0}, {w.x1 - 1, w.y1 - 1}); };
   Imf::Header header(box(picture.display), box(picture.data));
+  header.setType(Imf::SCANLINEIMAGE);
   header.compression() = Imf::ZIP_COMPRESSION;
   set_foreign_attributes(header, source.attributes(index));
   return header;
