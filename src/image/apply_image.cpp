@@ -1,13 +1,14 @@
 #include "image/apply_image.h"
 
 #include <OpenEXR/ImfThreading.h>
-#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/thread.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <thread>
 
+#include "image/acuity_rows.h"
 #include "image/row_bands.h"
 
 namespace scotopic {
@@ -33,21 +34,56 @@ class PictureRun {
 
   /// Fills `out` from `in`; `interleaved` as the sink wants it.
   void run(const Band& in, Band& out, bool interleaved) const {
+    allocate(in, out, interleaved);
+    each_row(in, [&](int row, LightRow& light) {
+      see_row(in, row, light);
+      write_row(in, row, light, out);
+    });
+  }
+
+  /// The same, with the acuity filter at the end: a band may come out later than it went in, or several at once.
+  template <typename Write>
+  void run(Band&& in, AcuityRows& rows, Band& out, bool interleaved, Write write) const {
+    const Band* band = rows.add(std::move(in));
+    each_row(*band, [&](int row, LightRow& light) {
+      see_row(*band, row, light);
+      rows.set_row(row, light);
+    });
+    while (rows.next()) {
+      allocate(rows.band(), out, interleaved);
+      each_row(rows.band(), [&](int row, LightRow& light) {
+        rows.get_row(row, light);
+        write_row(rows.band(), row, light, out);
+      });
+      write(out);
+    }
+  }
+
+  bool has_alpha() const { return light_.channels.alpha.has_value(); }
+
+ private:
+  void allocate(const Band& in, Band& out, bool interleaved) const {
     const std::vector<Channel>& channels = out_.picture.channels;
     if (interleaved)
       out.allocate_interleaved(channels, in.y0, in.rows, in.width);
     else
       out.allocate_planar(channels, in.y0, in.rows, in.width);
-    parallel_rows(in.rows, 8, [&](int first, int last) {
-      LightRow light(static_cast<std::size_t>(in.width));
-      for (int row = first; row < last; ++row) run_row(in, row, light, out);
+  }
+
+  template <typename Work>
+  static void each_row(const Band& band, Work work) {
+    parallel_rows(band.rows, 8, [&](int first, int last) {
+      LightRow light(static_cast<std::size_t>(band.width));
+      for (int row = first; row < last; ++row) work(row, light);
     });
   }
 
- private:
-  void run_row(const Band& in, int row, LightRow& light, Band& out) const {
+  void see_row(const Band& in, int row, LightRow& light) const {
     reader_.read(in, row, light);
     batch_.apply(light.pixels(reader_.receptors()), light.touched.data());
+  }
+
+  void write_row(const Band& in, int row, LightRow& light, Band& out) const {
     const NativeRow targets[3] = {out.channels[0].row(row), out.channels[1].row(row),
                                   out.channels[2].row(row)};
     if (reader_.receptors()) {
@@ -111,8 +147,8 @@ std::int64_t all_rows(const ImageLayout& layout) {
 
 void set_threads(int count) {
   const int threads = count > 0 ? count : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  OIIO::attribute("threads", threads);
-  // One thread is the caller: OpenEXR's pool would only wait beside it.
+  // The caller works too: pools are the others.
+  OIIO::default_thread_pool()->resize(threads - 1);
   Imf::setGlobalThreadCount(threads > 1 ? threads : 0);
 }
 
@@ -154,7 +190,8 @@ SceneStatistics measure_image(PixelSource& source, const ImageLayout& layout, co
 }
 
 void apply_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-                 const AppearanceBatch& batch, OutputFile& file, const Progress& progress) {
+                 const AppearanceBatch& batch, OutputFile& file, const Progress& progress,
+                 const AcuityFilter* acuity) {
   const std::unique_ptr<PixelSink> sink = open_sink(layout.format, file, source, layout.outputs);
   const std::int64_t total = all_rows(layout);
   std::int64_t done = 0;
@@ -168,12 +205,23 @@ void apply_image(PixelSource& source, const ImageLayout& layout, const ColourCon
     const PictureRun run(source, layout, config, batch, layout.outputs[i]);
     const Picture& picture = source.pictures()[layout.outputs[i].source];
     // OpenEXR wants the rows in the order that its header states, the other formats from the top.
-    each_band(picture, picture.descending && layout.format == "openexr", [&](int y0, int rows) {
-      source.read(layout.outputs[i].source, y0, rows, in);
-      run.run(in, out, sink->interleaved());
-      sink->write(i, out);
-      done += rows;
+    const bool descending = picture.descending && layout.format == "openexr";
+    std::optional<AcuityRows> acuity_rows;
+    if (acuity) acuity_rows.emplace(*acuity, picture.data, descending, run.has_alpha());
+    const auto write = [&](const Band& seen) {
+      sink->write(i, seen);
+      done += seen.rows;
       if (progress) progress(done, total);
+    };
+    each_band(picture, descending, [&](int y0, int rows) {
+      source.read(layout.outputs[i].source, y0, rows, in);
+      if (acuity_rows) {
+        run.run(std::move(in), *acuity_rows, out, sink->interleaved(), write);
+        in = Band();
+      } else {
+        run.run(in, out, sink->interleaved());
+        write(out);
+      }
     });
   }
   sink->finish();

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "acuity/filter.h"
 #include "appearance/batch.h"
 #include "image/colour_config.h"
 #include "image/light_path.h"
@@ -68,9 +69,11 @@ using Progress = std::function<void(std::int64_t done, std::int64_t total)>;
 SceneStatistics measure_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
                               const AppearanceParameters& parameters);
 
-/// Writes the whole output. Same bytes for any number of threads.
+/// Writes the whole output; `acuity` is applied last, to each picture by itself. Same bytes for any number of
+/// threads.
 void apply_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-                 const AppearanceBatch& batch, OutputFile& file, const Progress& progress = nullptr);
+                 const AppearanceBatch& batch, OutputFile& file, const Progress& progress = nullptr,
+                 const AcuityFilter* acuity = nullptr);
 
 /// Threads for rows and for OpenEXR's chunks; 0: one for each processor.
 void set_threads(int count);

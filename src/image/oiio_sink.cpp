@@ -1,4 +1,5 @@
-// TIFF and PNG output through OpenImageIO.
+#include "image/oiio_sink.h"
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -7,7 +8,6 @@
 
 #include "image/error.h"
 #include "image/oiio_source.h"
-#include "image/pixel_sink.h"
 
 namespace scotopic {
 namespace {

@@ -23,4 +23,7 @@ class OiioSource : public PixelSource {
   std::vector<OIIO::ImageSpec> specs_;  // one for each picture
 };
 
+std::unique_ptr<PixelSource> open_oiio_source(const std::string& file, const std::string& format,
+                                              const Limits& limits);
+
 }  // namespace scotopic

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "image/error.h"
+#include "image/formats_module.h"
 
 namespace scotopic {
 
@@ -31,7 +32,7 @@ const std::vector<PixelType>& pixel_types_of(const std::string& format) {
 std::unique_ptr<PixelSink> open_sink(const std::string& format, OutputFile& file, PixelSource& source,
                                      const std::vector<OutputPicture>& pictures) {
   return format == "openexr" ? open_exr_sink(file, source, pictures)
-                             : open_oiio_sink(format, file, source, pictures);
+                             : formats_module(file.path()).open_sink(format, file, source, pictures);
 }
 
 }  // namespace scotopic

@@ -50,7 +50,5 @@ std::unique_ptr<PixelSink> open_sink(const std::string& format, OutputFile& file
 
 std::unique_ptr<PixelSink> open_exr_sink(OutputFile& file, PixelSource& source,
                                          const std::vector<OutputPicture>& pictures);
-std::unique_ptr<PixelSink> open_oiio_sink(const std::string& format, OutputFile& file, PixelSource& source,
-                                          const std::vector<OutputPicture>& pictures);
 
 }  // namespace scotopic

@@ -56,7 +56,5 @@ class PixelSource {
 std::unique_ptr<PixelSource> open_source(const std::string& file, const Limits& limits);
 
 std::unique_ptr<PixelSource> open_exr_source(const std::string& file, const Limits& limits);
-std::unique_ptr<PixelSource> open_oiio_source(const std::string& file, const std::string& format,
-                                              const Limits& limits);
 
 }  // namespace scotopic

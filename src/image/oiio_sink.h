@@ -1,0 +1,11 @@
+// TIFF and PNG output through OpenImageIO; see open_sink().
+#pragma once
+
+#include "image/pixel_sink.h"
+
+namespace scotopic {
+
+std::unique_ptr<PixelSink> open_oiio_sink(const std::string& format, OutputFile& file, PixelSource& source,
+                                          const std::vector<OutputPicture>& pictures);
+
+}  // namespace scotopic
