@@ -35,6 +35,7 @@ struct BatchConstants {
 
   // What is on.
   bool safko, local, mesopic_policy, quadratic_rods, do_shift, project, gamut_is_rgb, do_luminance, do_chroma;
+  bool usual;  // the stages of a look with every default, for which there is code without branches
 
   // Weight.
   T unit, adaptation, scotopic_limit, photopic_limit;
@@ -43,7 +44,7 @@ struct BatchConstants {
   std::array<T, log_terms> log_series;        // log2 f = s sum_k log_series[k] s^2k, s = (f-1)/(f+1)
 
   // Receptors and kernel.
-  Vec3<T> y_row, size_from_rgb;               // luminance; see OperatorConstants
+  Vec3<T> y_row, y_magnitude;                 // luminance; its coefficients' magnitudes
   Matrix3<T> lms_from_rgb, rgb_from_lms, xyz_from_rgb;
   Vec3<T> rod_row;                            // rods, linear estimate
   T rod_floor;                                // smallest rod signal, times Y
@@ -83,6 +84,7 @@ BatchConstants<T>::BatchConstants(const OperatorConstants& c) {
   gamut_is_rgb = c.gamut_is_rgb;
   do_luminance = c.luminance > 0;
   do_chroma = c.chroma > 0;
+  usual = !safko && local && mesopic_policy && !quadratic_rods && do_shift && gamut_is_rgb && do_luminance && do_chroma;
 
   unit = t(p.white_luminance);
   adaptation = t(p.adaptation);
@@ -97,7 +99,7 @@ BatchConstants<T>::BatchConstants(const OperatorConstants& c) {
     log_series[k] = t(2 / std::numbers::ln2 / static_cast<double>(2 * k + 1));
 
   y_row = rounded<T>(c.luminance_from_rgb);
-  size_from_rgb = rounded<T>(c.size_from_rgb);
+  for (std::size_t i = 0; i < 3; ++i) y_magnitude[i] = std::abs(y_row[i]);
   lms_from_rgb = c.lms_from_rgb.to<T>();
   xyz_from_rgb = p.xyz_from_rgb.to<T>();
   const double per_scotopic = rod_signal_per_scotopic_luminance();

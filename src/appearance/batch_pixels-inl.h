@@ -59,9 +59,10 @@ class PixelOperator {
     active = hn::And(active, hn::Lt(local, set(T(photopic_luminance))));
     if (hn::AllFalse(d_, active)) return active;
     Triple<V> cones = times(k_.lms_from_rgb, p.rgb);
-    const V size = dot(k_.size_from_rgb, {hn::Abs(p.rgb.x), hn::Abs(p.rgb.y), hn::Abs(p.rgb.z)});
+    const Triple<V> cones_in = cones;
     if constexpr (needs_more_digits) {
-      doubtful = hn::Lt(y, hn::Mul(set(T(0.5)), size));
+      const Triple<V> magnitude = {hn::Abs(p.rgb.x), hn::Abs(p.rgb.y), hn::Abs(p.rgb.z)};
+      doubtful = hn::Lt(y, hn::Mul(set(T(0.5)), dot(k_.y_magnitude, magnitude)));
       doubtful = hn::And(active, hn::Or(doubtful, below_zero(has_cones(p) ? p.cones : cones)));
     }
 
@@ -69,7 +70,7 @@ class PixelOperator {
     const V rod = rod_signal(p, y);
     Triple<V> rgb = p.rgb;
     if (usual || k_.do_shift) rgb = shifted(p, cones, rod, share);
-    if (usual || k_.do_luminance) rgb = with_luminance(rgb, hn::Max(size, largest_cone(cones)), y, rod, share);
+    if (usual || k_.do_luminance) rgb = with_luminance(rgb, largest_cone(cones_in, cones), y, rod, share);
     if (usual || k_.do_chroma) rgb = with_chroma(rgb, local);
     p.rgb = select(active, rgb, p.rgb);
     return active;
@@ -234,11 +235,12 @@ class PixelOperator {
     return hn::Add(y, hn::Mul(weight, hn::Sub(hn::Mul(rod, set(k_.inverse_rod_white)), y)));
   }
 
-  // The greatest magnitude of the cone signals, white's being 1.
-  V largest_cone(const Triple<V>& cones) const {
-    return hn::Max(hn::Max(hn::Abs(hn::Mul(cones.x, set(k_.inverse_cone_white[0]))),
-                           hn::Abs(hn::Mul(cones.y, set(k_.inverse_cone_white[1])))),
-                   hn::Abs(hn::Mul(cones.z, set(k_.inverse_cone_white[2]))));
+  // The greatest magnitude of the cone signals of two colours, white's being 1.
+  V largest_cone(const Triple<V>& a, const Triple<V>& b) const {
+    return hn::Max(hn::Max(largest_cone(a.x, b.x, 0), largest_cone(a.y, b.y, 1)), largest_cone(a.z, b.z, 2));
+  }
+  V largest_cone(V a, V b, std::size_t i) const {
+    return hn::Mul(hn::Max(hn::Abs(a), hn::Abs(b)), set(k_.inverse_cone_white[i]));
   }
 
   // luminance_ratio() of reference.h, and what leads to it.
@@ -253,7 +255,8 @@ class PixelOperator {
     // Not u (to/f): 0 times infinity is no number.
     V ratio = hn::Add(hn::Div(hn::Mul(u, to), divisor), hn::Sub(one(), hn::Mul(u, u)));
     ratio = hn::Min(hn::Max(ratio, zero), set(T(1e18)));
-    ratio = hn::IfThenElse(hn::Gt(f, zero), ratio, one());
+    // Nothing to change is 1 to the last bit. (Black, f = 0, among it: from = to = 0, or nothing to scale.)
+    ratio = hn::IfThenElse(hn::And(hn::Gt(f, zero), hn::Ne(to, from)), ratio, one());
     return scaled(ratio, rgb);
   }
 

@@ -1,8 +1,5 @@
 #include "appearance/constants.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "adaptation/pupil.h"
 #include "receptors/receptor_space.h"
 #include "receptors/spectrum.h"
@@ -27,12 +24,6 @@ double white_rod_signal(const AppearanceParameters& p) {
          scotopic_luminance_from_xyz<double>(white, p.rods, sp_ratio_d65) / white[1];
 }
 
-Vec3<double> magnitudes(const Vec3<double>& row) {
-  Vec3<double> out;
-  for (std::size_t i = 0; i < 3; ++i) out[i] = std::max(std::abs(row[i]), luminance_floor);
-  return out;
-}
-
 }  // namespace
 
 Matrix3<double> rgb_from_lms_cat02(const AppearanceParameters& p) {
@@ -50,7 +41,6 @@ OperatorConstants::OperatorConstants(const AppearanceParameters& p)
       lms_from_rgb(lms_from_xyz() * p.xyz_from_rgb),
       rgb_from_lms(inverse(p.xyz_from_rgb) * xyz_from_lms()),
       luminance_from_rgb(p.xyz_from_rgb[1]),
-      size_from_rgb(magnitudes(luminance_from_rgb)),
       cone_white(lms_from_rgb * Vec3<double>{1, 1, 1}),
       rod_white(white_rod_signal(p)),
       shift(p.strength.all * p.strength.shift),

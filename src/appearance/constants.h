@@ -25,7 +25,6 @@ struct OperatorConstants {
   Matrix3<double> lms_from_rgb;     ///< luminance units per image value 1, that is per white_luminance
   Matrix3<double> rgb_from_lms;
   Vec3<double> luminance_from_rgb;  ///< Y row of xyz_from_rgb
-  Vec3<double> size_from_rgb;       ///< its magnitudes, at least luminance_floor: how large |RGB| is, white being 1
   Vec3<double> cone_white;          ///< q of image white (1, 1, 1)
   double rod_white;                 ///< r of a D65 white of luminance 1, as the rod estimate in use gives it
   double shift, luminance, chroma;  ///< effective strengths (shift and chroma times `all`); luminance 0: off

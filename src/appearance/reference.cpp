@@ -47,7 +47,7 @@ double policy_luminance(const OperatorConstants& c, double photopic, double rod,
 
 double luminance_ratio(double from, double to, double largest) noexcept {
   const double f = std::max(std::abs(from), luminance_floor * largest);
-  if (!(f > 0)) return 1;
+  if (!(f > 0) || to == from) return 1;
   const double u = from / f;
   constexpr double cap = 1e18;
   // Not u (to/f): 0 times infinity is no number.
@@ -89,9 +89,9 @@ Vec3<double> AppearanceReference::with_luminance(const Vec3<double>& rgb, const 
   const double goal = in.photopic + c_.luminance_goal * (policy - in.photopic);
   // From the goal's side: at strength 1 this is the goal to the last digit, however far `from` is.
   const double to = goal + (1 - c_.luminance) * (from - goal);
-  double largest = dot(c_.size_from_rgb, {std::abs(in.rgb[0]), std::abs(in.rgb[1]), std::abs(in.rgb[2])});
-  const Vec3<double> cones = c_.lms_from_rgb * rgb;
-  for (std::size_t i = 0; i < 3; ++i) largest = std::max(largest, std::abs(cones[i]) / c_.cone_white[i]);
+  double largest = 0;
+  for (const Vec3<double>& cones : {c_.lms_from_rgb * in.rgb, c_.lms_from_rgb * rgb})
+    for (std::size_t i = 0; i < 3; ++i) largest = std::max(largest, std::abs(cones[i]) / c_.cone_white[i]);
   return scaled(luminance_ratio(from, to, largest), rgb);
 }
 

@@ -48,11 +48,10 @@ double policy_luminance(const OperatorConstants& constants, double photopic, dou
 
 /// Factor that takes a colour of luminance `from` to `to` at constant chromaticity:
 ///   max(0, u to/f + (1 - u^2)),  f = max(|from|, luminance_floor * largest),  u = from/f,
-/// largest: the greatest |cone signal| relative to white's of the colour to be scaled, or size_from_rgb |RGB| of the
-/// pixel that came in, if greater: what is left of a cancellation has no chromaticity to keep. That is to/from
-/// wherever |from| is at least that floor (neutrals, lights, all that a gamut holds); below, continuous, 1 when
-/// to = from, and at most |to|/(luminance_floor * largest) + 1. A luminance that would change sign becomes 0.
-/// Black (largest = 0): 1.
+/// largest: the greatest |cone signal| relative to white's, of the pixel as it came in or as it is about to be
+/// scaled (what is left of a cancellation has no chromaticity to keep). That is to/from wherever |from| is at least
+/// that floor (neutrals, lights, all that a gamut holds); below, continuous, 1 when to = from, and at most
+/// |to|/(luminance_floor * largest) + 1. A luminance that would change sign becomes 0. Black (largest = 0): 1.
 /// Never over 1e18, which only black with a rod signal of its own could ask for.
 double luminance_ratio(double from, double to, double largest) noexcept;
 
