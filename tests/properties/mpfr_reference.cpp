@@ -332,15 +332,11 @@ Vec3<Real> ExactOperator<Real>::operator()(const ReferencePixel& pixel) const {
     const Real from = dot(s_.xyz_from_rgb[1], out), goal = y + all * (policy_luminance(y, at_least_0(rod), m) - y);
     const Real to = from + Real(p.strength.luminance) * (goal - from);
     Real largest(0);
-    const Vec3<Real> cones = s_.lms_from_rgb * out;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Real coefficient = abs(s_.xyz_from_rgb[1][i]), least = Real(1) / Real(64);
-      largest = largest + (coefficient > least ? coefficient : least) * abs(rgb[i]);
-    }
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Real relative = abs(Real(cones[i] / s_.cone_white[i]));
-      if (relative > largest) largest = relative;
-    }
+    for (const Vec3<Real>& cones : {s_.lms_from_rgb * rgb, s_.lms_from_rgb * out})
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Real relative = abs(Real(cones[i] / s_.cone_white[i]));
+        if (relative > largest) largest = relative;
+      }
     out = times(regularised_ratio(from, to, largest), out);
   }
   const Real kept = Real(1) - Real(p.strength.chroma) * all * (Real(1) - exact_chroma_factor(local));

@@ -1,0 +1,88 @@
+#include "properties/judge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace scotopic::test {
+
+template <typename Real>
+double relative_error(const Vec3<double>& got, const Vec3<Real>& exact, const Sample& in, Planes planes, Way way) {
+  using std::abs;
+  double size = way == Way::dual ? 0x1p-126 : way == Way::single ? 0x1p-120 : 0, worst = 0;
+  if (planes != Planes::rgb) size = std::max(size, std::abs(static_cast<double>(in.rod)));
+  if (planes == Planes::all)
+    for (const float cone : in.cones) size = std::max(size, std::abs(static_cast<double>(cone)));
+  for (std::size_t i = 0; i < 3; ++i)
+    size = std::max({size, std::abs(static_cast<double>(in.rgb[i])), std::abs(static_cast<double>(exact[i]))});
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double error = static_cast<double>(abs(Real(Real(got[i]) - exact[i])));
+    worst = std::isfinite(error) ? std::max(worst, error) : INFINITY;
+  }
+  return worst == 0 ? 0 : worst / size;
+}
+template double relative_error(const Vec3<double>&, const Vec3<Mp>&, const Sample&, Planes, Way);
+template double relative_error(const Vec3<double>&, const Vec3<long double>&, const Sample&, Planes, Way);
+
+Strain strain(const OperatorConstants& c, const Sample& sample, Planes planes) {
+  const ReferencePixel pixel = sample.widened(planes);
+  const double rod = std::max(0.0, pixel.rod ? *pixel.rod : rod_signal_from_rgb(c, pixel.rgb));
+  Strain out;
+  double size = 0;
+  for (std::size_t j = 0; j < 3; ++j) size += std::abs(c.luminance_from_rgb[j] * pixel.rgb[j]);
+  out.cancelled = dot(c.luminance_from_rgb, pixel.rgb) < 0.5 * size;
+  for (std::size_t i = 0; i < 3; ++i) {
+    double q = 0, magnitude = 0;
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double term = pixel.cones ? (j == i ? (*pixel.cones)[i] : 0) : c.lms_from_rgb[i][j] * pixel.rgb[j];
+      q += term, magnitude += std::abs(term);
+    }
+    const double gain = c.kernel.gain()[i] * c.parameters.white_luminance;
+    const double root = 1 + gain * std::max(0.0, q + c.kernel.kappa()[i] * rod);
+    out.root = std::max(out.root, gain * (magnitude + c.kernel.kappa()[i] * rod) / root);
+    out.cancelled = out.cancelled || q < 0.1 * magnitude;
+  }
+  return out;
+}
+
+double allowed_error(Way way, RodEstimate rods, const Strain& strain) {
+  const double in_double = strain.cancelled ? 1e-9 + 0x1p-44 * strain.root : 2e-13 + 0x1p-47 * strain.root;
+  if (way == Way::reference) return in_double;
+  if (way == Way::dual) return 0x1p-24 + in_double;
+  return (rods == RodEstimate::quadratic ? 4e-6 : 2e-6) + in_double;
+}
+
+std::string to_text(Regime regime, Way way, const Worst& w) {
+  char numbers[300];
+  std::snprintf(numbers, sizeof numbers, "%s,%s,%d,%.3g,%a,%a,%a,%a,%a,%a,%a,", name(regime),
+                way_names[static_cast<std::size_t>(way)], static_cast<int>(w.planes), w.error, w.sample.rgb[0],
+                w.sample.rgb[1], w.sample.rgb[2], w.sample.cones[0], w.sample.cones[1], w.sample.cones[2],
+                w.sample.rod);
+  return numbers + w.setting;
+}
+
+std::vector<Kept> read_worst(const std::string& path) {
+  std::ifstream file(path);
+  std::vector<Kept> out;
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    std::vector<std::string> cells;
+    std::istringstream stream(line);
+    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+    if (cells.size() != 12 || !regime_named(cells[0])) throw std::runtime_error("worst.csv: " + line);
+    const auto number = [&cells](std::size_t i) { return std::strtof(cells[i].c_str(), nullptr); };
+    const auto way = std::find(way_names.begin(), way_names.end(), cells[1]) - way_names.begin();
+    out.push_back({*regime_named(cells[0]),
+                   static_cast<Way>(way),
+                   static_cast<Planes>(std::stoi(cells[2])),
+                   std::strtod(cells[3].c_str(), nullptr),
+                   {{number(4), number(5), number(6)}, {number(7), number(8), number(9)}, number(10)},
+                   parameters_from_text(cells[11])});
+  }
+  return out;
+}
+
+}  // namespace scotopic::test

@@ -1,0 +1,178 @@
+// Pixels of every regime under drawn settings, each way of computing them against exact arithmetic.
+//   SCOTOPIC_DRAWS=1e7    the long form (default 1e6)
+//   SCOTOPIC_SEED=N       other draws
+//   SCOTOPIC_WORST=FILE   writes the worst of each regime and way, in the form of worst.csv
+//   SCOTOPIC_HISTOGRAM=FILE  writes how many pixels fell into each octave of error
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+
+#include "properties/judge.h"
+
+namespace scotopic::test {
+namespace {
+
+constexpr std::size_t ways = static_cast<std::size_t>(Way::count);
+using Table = std::array<std::array<Worst, ways>, regime_count>;
+
+double from_environment(const char* variable, double otherwise) {
+  const char* text = std::getenv(variable);
+  return text ? std::strtod(text, nullptr) : otherwise;
+}
+
+bool same_bits(const std::array<float, 3>& a, const std::array<float, 3>& b) {
+  return std::bit_cast<std::array<std::uint32_t, 3>>(a) == std::bit_cast<std::array<std::uint32_t, 3>>(b);
+}
+
+struct Failures {
+  long above_bound = 0, touched_wrongly = 0, changed_untouched = 0;
+  std::string first;
+};
+
+void note(Worst& worst, double error, Planes planes, const AppearanceParameters& p, const Sample& sample) {
+  const int octave = error > 0 ? std::min(63, std::max(0, 60 + std::ilogb(error))) : 0;
+  ++worst.octaves[static_cast<std::size_t>(octave)];
+  if (error > worst.error) {
+    worst.error = error, worst.planes = planes, worst.sample = sample;
+    worst.setting = to_text(p);
+  }
+}
+
+// One setting, `each` pixels of each regime, by all ways.
+void judge_setting(Random& random, int each, Table& table, Failures& failures) {
+  const AppearanceParameters p = draw_parameters(random);
+  const Planes planes = draw_planes(random);
+  const Ways way(p);
+  const ExactOperator<long double> exact(p);
+  std::vector<Sample> samples;
+  for (int regime = 0; regime < regime_count; ++regime)
+    for (int k = 0; k < each; ++k)
+      samples.push_back(draw(static_cast<Regime>(regime), way.reference.constants(), random));
+  Rows single(samples), dual(samples);
+  std::vector<std::uint8_t> touched_single(samples.size()), touched_dual(samples.size());
+  way.single.apply(single.view(planes), touched_single.data());
+  way.dual.apply(dual.view(planes), touched_dual.data());
+
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Sample& sample = samples[i];
+    const auto pixel = sample.widened(planes);
+    const Vec3<long double> expected = exact(pixel);
+    const auto widen = [](const std::array<float, 3>& v) { return Vec3<double>{v[0], v[1], v[2]}; };
+    const std::array<Vec3<double>, ways> got = {way.reference(pixel), widen(single.rgb(i)), widen(dual.rgb(i))};
+    const Strain strained = strain(way.reference.constants(), sample, planes);
+    for (std::size_t w = 0; w < ways; ++w) {
+      const double error = relative_error(got[w], expected, sample, planes, static_cast<Way>(w));
+      note(table[i / static_cast<std::size_t>(each)][w], error, planes, p, sample);
+      if (!(error <= allowed_error(static_cast<Way>(w), p.rods, strained)) && failures.above_bound++ == 0)
+        failures.first = std::string(name(static_cast<Regime>(i / static_cast<std::size_t>(each)))) + " " +
+                         way_names[w] + " " + to_text(p);
+    }
+    if (!touched_single[i] && !same_bits(single.rgb(i), sample.rgb)) ++failures.changed_untouched;
+    if (!touched_dual[i] && !same_bits(dual.rgb(i), sample.rgb)) ++failures.changed_untouched;
+  }
+}
+
+void write_histogram(const Table& table, const char* path) {
+  std::ofstream file(path);
+  file << "# log2 of the relative error";
+  for (const char* way : way_names) file << ',' << way;
+  file << '\n';
+  for (std::size_t octave = 0; octave < 64; ++octave) {
+    file << static_cast<int>(octave) - 60;
+    for (std::size_t w = 0; w < ways; ++w) {
+      long sum = 0;
+      for (const auto& row : table) sum += row[w].octaves[octave];
+      file << ',' << sum;
+    }
+    file << '\n';
+  }
+}
+
+void report(const Table& table, double draws) {
+  std::printf("worst relative error, %.3g pixels\n%-20s %10s %10s %10s\n", draws, "", way_names[0], way_names[1],
+              way_names[2]);
+  for (int r = 0; r < regime_count; ++r) {
+    const auto& row = table[static_cast<std::size_t>(r)];
+    std::printf("%-20s %10.2e %10.2e %10.2e\n", name(static_cast<Regime>(r)), row[0].error, row[1].error,
+                row[2].error);
+  }
+  if (const char* path = std::getenv("SCOTOPIC_WORST")) {
+    std::ofstream file(path);
+    file << "# regime,way,planes (0 RGB, 1 with rods, 2 with cones),error,R,G,B,L,M,S,rod,setting\n";
+    for (int r = 0; r < regime_count; ++r)
+      for (std::size_t w = 0; w < ways; ++w)
+        file << to_text(static_cast<Regime>(r), static_cast<Way>(w), table[static_cast<std::size_t>(r)][w]) << '\n';
+  }
+  if (const char* path = std::getenv("SCOTOPIC_HISTOGRAM")) write_histogram(table, path);
+}
+
+TEST(Millions, every_regime_stays_within_its_bound_of_exact_arithmetic) {
+  constexpr int each = 64;
+  const double draws = from_environment("SCOTOPIC_DRAWS", 1e6);
+  const auto settings = static_cast<int>(std::ceil(draws / (each * regime_count)));
+  Random random(static_cast<std::uint64_t>(from_environment("SCOTOPIC_SEED", 1)));
+  Table table;
+  Failures failures;
+  for (int s = 0; s < settings; ++s) judge_setting(random, each, table, failures);
+  report(table, static_cast<double>(settings) * each * regime_count);
+  EXPECT_EQ(failures.above_bound, 0) << failures.first;
+  EXPECT_EQ(failures.changed_untouched, 0);
+}
+
+TEST(Millions, the_worst_pixels_ever_found_stay_within_their_bounds) {
+  const auto kept = read_worst(WORST_CSV);
+  ASSERT_GE(kept.size(), static_cast<std::size_t>(regime_count) * ways);
+  for (const Kept& k : kept) {
+    const Ways way(k.parameters);
+    const auto pixel = k.sample.widened(k.planes);
+    const Vec3<Mp> expected = ExactOperator<Mp>(k.parameters)(pixel);
+    Rows single({k.sample}), dual({k.sample});
+    way.single.apply(single.view(k.planes));
+    way.dual.apply(dual.view(k.planes));
+    const auto widen = [](const std::array<float, 3>& v) { return Vec3<double>{v[0], v[1], v[2]}; };
+    const std::array<Vec3<double>, ways> got = {way.reference(pixel), widen(single.rgb(0)), widen(dual.rgb(0))};
+    const Strain strained = strain(way.reference.constants(), k.sample, k.planes);
+    for (std::size_t w = 0; w < ways; ++w)
+      EXPECT_LE(relative_error(got[w], expected, k.sample, k.planes, static_cast<Way>(w)), allowed_error(static_cast<Way>(w), k.parameters.rods, strained))
+          << name(k.regime) << ", " << way_names[w] << ", found by " << way_names[static_cast<std::size_t>(k.way)];
+  }
+}
+
+TEST(Millions, long_double_is_a_sound_judge_itself) {
+  // The judge of millions against 256 bits, on a few thousand of them.
+  Random random(2);
+  double worst = 0;
+  for (int s = 0; s < 40; ++s) {
+    const AppearanceParameters p = draw_parameters(random);
+    const Planes planes = draw_planes(random);
+    const OperatorConstants constants(p);
+    const ExactOperator<Mp> exact(p);
+    const ExactOperator<long double> judge(p);
+    for (int regime = 0; regime < regime_count; ++regime)
+      for (int k = 0; k < 4; ++k) {
+        const Sample sample = draw(static_cast<Regime>(regime), constants, random);
+        if (strain(constants, sample, planes).cancelled) continue;
+        const Vec3<Mp> expected = exact(sample.widened(planes));
+        const Vec3<long double> got = judge(sample.widened(planes));
+        long double size = 0x1p-1000L, error = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+          // A long double in two doubles.
+          const auto high = static_cast<double>(got[i]);
+          const Mp gap = expected[i] - Mp(high) - Mp(static_cast<double>(got[i] - high));
+          size = std::max({size, std::abs(got[i]), std::abs(static_cast<long double>(sample.rgb[i]))});
+          error = std::max(error, std::abs(static_cast<long double>(static_cast<double>(gap))));
+        }
+        worst = std::max(worst, static_cast<double>(error / size));
+      }
+  }
+  std::printf("long double against 256 bits: worst relative error %.2e\n", worst);
+  EXPECT_LE(worst, 1e-15);
+}
+
+}  // namespace
+}  // namespace scotopic::test
