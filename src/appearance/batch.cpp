@@ -11,6 +11,7 @@
 #include <hwy/highway.h>
 
 #include "appearance/batch_constants.h"
+#include "appearance/batch_layouts-inl.h"
 #include "appearance/batch_pixels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -32,9 +33,15 @@ struct Planes {
   }
 };
 
-template <class D>
-auto load_pixels(D d, const PixelRows& rows, std::size_t at) {
+template <bool usual, class D>
+HWY_INLINE auto load_pixels(D d, const PixelRows& rows, std::size_t at) {
+  using V = hn::Vec<D>;
   const auto load = [&](const float* plane) { return plane ? Planes<D>::load(d, plane + at) : hn::Zero(d); };
+  if constexpr (usual) {
+    const V none = hn::Zero(d);
+    return PixelVector<V>{{Planes<D>::load(d, rows.r + at), Planes<D>::load(d, rows.g + at),
+                           Planes<D>::load(d, rows.b + at)}, {none, none, none}, none, false, false};
+  }
   return PixelVector<hn::Vec<D>>{{load(rows.r), load(rows.g), load(rows.b)},
                                  {load(rows.cone_l), load(rows.cone_m), load(rows.cone_s)},
                                  load(rows.rod),
@@ -60,20 +67,31 @@ std::uint64_t lane_bits(D d, hn::Mask<D> mask) {
   return bits;
 }
 
+// A byte of 0 or 1 per bit, eight at a time.
+HWY_INLINE void mark(std::uint8_t* touched, std::size_t lanes, std::uint64_t bits) {
+  for (std::size_t i = 0; i < lanes; i += 8) {
+    // Byte k keeps bit k of its copy of the eight; then any bit becomes 1.
+    const std::uint64_t spread = (bits >> i & 0xff) * 0x0101010101010101u & 0x8040201008040201u;
+    const std::uint64_t bytes = (spread + 0x7f7f7f7f7f7f7f7fu) >> 7 & 0x0101010101010101u;
+    std::memcpy(touched + i, &bytes, std::min<std::size_t>(8, lanes - i));
+  }
+}
+
 // The constants in the type that pixels are computed in, and in double for those that need it.
-template <typename T>
+template <typename T, bool usual_stages>
 struct Operators {
-  PixelOperator<hn::ScalableTag<T>> main;
+  static constexpr bool usual = usual_stages;
+  PixelOperator<hn::ScalableTag<T>, usual> main;
   PixelOperator<hn::ScalableTag<double>> exact;
 };
 
 // Computes in double the pixels at `at` that `bits` names; `lanes` pixels may be read.
-void apply_exactly(const PixelOperator<hn::ScalableTag<double>>& op, const PixelRows& rows, std::size_t at,
+HWY_NOINLINE void apply_exactly(const PixelOperator<hn::ScalableTag<double>>& op, const PixelRows& rows, std::size_t at,
                    std::size_t lanes, std::uint64_t bits) {
   const hn::ScalableTag<double> d;
   Lanes out;
   for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
-    auto p = load_pixels(d, rows, at + i);
+    auto p = load_pixels<false>(d, rows, at + i);
     auto ignored = hn::MaskFromVec(hn::Zero(d));
     op(p, ignored);
     Planes<hn::ScalableTag<double>>::store(d, p.rgb.x, out.r);
@@ -85,17 +103,16 @@ void apply_exactly(const PixelOperator<hn::ScalableTag<double>>& op, const Pixel
 }
 
 // One vector of pixels at `at`. Pixels that are not touched keep their bits: they are not stored.
-template <typename T>
-void apply_vector(const Operators<T>& op, const PixelRows& rows, std::size_t at, std::uint8_t* touched) {
+template <typename T, bool usual>
+HWY_INLINE void apply_vector(const Operators<T, usual>& op, const PixelRows& rows, std::size_t at, std::uint8_t* touched) {
   using D = hn::ScalableTag<T>;
   const D d;
   const std::size_t lanes = hn::Lanes(d);
-  auto p = load_pixels(d, rows, at);
+  auto p = load_pixels<usual>(d, rows, at);
   auto doubtful = hn::MaskFromVec(hn::Zero(d));
   const auto active = op.main(p, doubtful);
   const std::uint64_t active_bits = lane_bits(d, active);
-  if (touched)
-    for (std::size_t i = 0; i < lanes; ++i) touched[at + i] = active_bits >> i & 1u;
+  if (touched) mark(touched + at, lanes, active_bits);
   if (active_bits == 0) return;
   const std::uint64_t exact_bits = std::is_same_v<T, double> ? 0 : lane_bits(d, doubtful);
   if (hn::AllTrue(d, active) && exact_bits == 0) {
@@ -114,8 +131,8 @@ void apply_vector(const Operators<T>& op, const PixelRows& rows, std::size_t at,
 }
 
 // The last pixels, fewer than a vector: through a padded copy, by the same instructions.
-template <typename T>
-void apply_tail(const Operators<T>& op, const PixelRows& rows, std::size_t at, std::uint8_t* touched) {
+template <typename T, bool usual>
+HWY_NOINLINE void apply_tail(const Operators<T, usual>& op, const PixelRows& rows, std::size_t at, std::uint8_t* touched) {
   constexpr std::size_t most = HWY_MAX_BYTES / sizeof(float);
   float copy[7][most] = {};
   std::uint8_t touched_copy[most] = {};
@@ -135,22 +152,49 @@ void apply_tail(const Operators<T>& op, const PixelRows& rows, std::size_t at, s
   if (touched) std::copy_n(touched_copy, count, touched + at);
 }
 
-template <typename T>
-void apply_rows(const BatchConstants<T>& main, const BatchConstants<double>& exact, const PixelRows& rows,
-                std::uint8_t* touched) {
-  const Operators<T> op{{hn::ScalableTag<T>(), main}, {hn::ScalableTag<double>(), exact}};
+template <bool usual, typename T>
+void apply_stages(const BatchConstants<T>& main, const BatchConstants<double>& exact, const PixelRows& rows,
+                  std::uint8_t* touched) {
+  const Operators<T, usual> op{{hn::ScalableTag<T>(), main}, {hn::ScalableTag<double>(), exact}};
   const std::size_t lanes = hn::Lanes(hn::ScalableTag<T>());
   std::size_t at = 0;
   for (; at + lanes <= rows.count; at += lanes) apply_vector(op, rows, at, touched);
   if (at < rows.count) apply_tail(op, rows, at, touched);
 }
 
-void apply_single(const BatchConstants<float>& main, const BatchConstants<double>& exact, const PixelRows& rows,
-                  std::uint8_t* touched) {
-  apply_rows(main, exact, rows, touched);
+template <typename T>
+void apply_rows(const BatchConstants<T>& main, const BatchConstants<double>& exact, const PixelRows& rows,
+                std::uint8_t* touched) {
+  if (main.usual && !rows.cone_l && !rows.rod) apply_stages<true>(main, exact, rows, touched);
+  else apply_stages<false>(main, exact, rows, touched);
 }
-void apply_dual(const BatchConstants<double>& exact, const PixelRows& rows, std::uint8_t* touched) {
-  apply_rows(exact, exact, rows, touched);
+
+// All ways in: `main` is null for double inside.
+void apply_planes(const BatchConstants<float>* main, const BatchConstants<double>& exact, const PixelRows& rows,
+                  std::uint8_t* touched) {
+  if (main) apply_rows(*main, exact, rows, touched);
+  else apply_rows(exact, exact, rows, touched);
+}
+
+template <typename E, class Layout>
+void apply_layout(const BatchConstants<float>* main, const BatchConstants<double>& exact, const Layout& layout,
+                  std::size_t count, std::uint8_t* touched) {
+  apply_in_blocks<E>(layout, count, touched, [&](const PixelRows& block, std::uint8_t* touched_here) {
+    apply_planes(main, exact, block, touched_here);
+  });
+}
+
+void apply_half_planes(const BatchConstants<float>* main, const BatchConstants<double>& exact, const HalfRows& rows,
+                       std::uint8_t* touched) {
+  apply_layout<std::uint16_t>(main, exact, PlaneLayout<std::uint16_t>{rows.r, rows.g, rows.b}, rows.count, touched);
+}
+void apply_rgba(const BatchConstants<float>* main, const BatchConstants<double>& exact, float* rgba, std::size_t count,
+                std::uint8_t* touched) {
+  apply_layout<float>(main, exact, RgbaLayout<float>{rgba}, count, touched);
+}
+void apply_half_rgba(const BatchConstants<float>* main, const BatchConstants<double>& exact, std::uint16_t* rgba,
+                     std::size_t count, std::uint8_t* touched) {
+  apply_layout<std::uint16_t>(main, exact, RgbaLayout<std::uint16_t>{rgba}, count, touched);
 }
 
 }  // namespace scotopic::HWY_NAMESPACE
@@ -159,12 +203,16 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace scotopic {
 
-HWY_EXPORT(apply_single);
-HWY_EXPORT(apply_dual);
+HWY_EXPORT(apply_planes);
+HWY_EXPORT(apply_half_planes);
+HWY_EXPORT(apply_rgba);
+HWY_EXPORT(apply_half_rgba);
 
 struct AppearanceBatch::Constants {
   BatchConstants<double> exact;
   std::optional<BatchConstants<float>> single;
+
+  const BatchConstants<float>* main() const { return single ? &*single : nullptr; }
 };
 
 AppearanceBatch::AppearanceBatch(const AppearanceParameters& parameters, Precision precision) {
@@ -179,9 +227,19 @@ AppearanceBatch::AppearanceBatch(AppearanceBatch&&) noexcept = default;
 AppearanceBatch& AppearanceBatch::operator=(AppearanceBatch&&) noexcept = default;
 
 void AppearanceBatch::apply(const PixelRows& rows, std::uint8_t* touched) const noexcept {
-  const Constants& c = *constants_;
-  if (c.single) HWY_DYNAMIC_DISPATCH(apply_single)(*c.single, c.exact, rows, touched);
-  else HWY_DYNAMIC_DISPATCH(apply_dual)(c.exact, rows, touched);
+  HWY_DYNAMIC_DISPATCH(apply_planes)(constants_->main(), constants_->exact, rows, touched);
+}
+
+void AppearanceBatch::apply(const HalfRows& rows, std::uint8_t* touched) const noexcept {
+  HWY_DYNAMIC_DISPATCH(apply_half_planes)(constants_->main(), constants_->exact, rows, touched);
+}
+
+void AppearanceBatch::apply_rgba(float* rgba, std::size_t count, std::uint8_t* touched) const noexcept {
+  HWY_DYNAMIC_DISPATCH(apply_rgba)(constants_->main(), constants_->exact, rgba, count, touched);
+}
+
+void AppearanceBatch::apply_rgba(std::uint16_t* rgba, std::size_t count, std::uint8_t* touched) const noexcept {
+  HWY_DYNAMIC_DISPATCH(apply_half_rgba)(constants_->main(), constants_->exact, rgba, count, touched);
 }
 
 }  // namespace scotopic

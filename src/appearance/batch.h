@@ -23,6 +23,14 @@ struct PixelRows {
   std::size_t count = 0;
 };
 
+/// The same as IEEE 754 binary16; receptors are estimated from RGB.
+struct HalfRows {
+  std::uint16_t* r = nullptr;
+  std::uint16_t* g = nullptr;
+  std::uint16_t* b = nullptr;
+  std::size_t count = 0;
+};
+
 /// Number type inside; planes are float either way. single: error <= 2e-6 of the pixel's largest component,
 /// in or out, over 1e-6 to 1e6 cd/m2 (tests/appearance, tests/properties); colours whose luminance is the rest of a
 /// cancellation, or with a negative cone signal, are computed in double. dual: double inside, rounded once.
@@ -41,6 +49,13 @@ class AppearanceBatch {
   /// Applies the operator in place. Where `touched` is given (count bytes), touched[i] says whether pixel i
   /// was computed: 0 means it has the very bits it came in with (photopic, or not a finite number below 2^120).
   void apply(const PixelRows& rows, std::uint8_t* touched = nullptr) const noexcept;
+
+  /// The same results rounded once more, to half (nearest, ties to even; beyond 65504, that).
+  void apply(const HalfRows& rows, std::uint8_t* touched = nullptr) const noexcept;
+
+  /// The same for pixels of R, G, B, A next to each other, as float or as half. A keeps its bits.
+  void apply_rgba(float* rgba, std::size_t count, std::uint8_t* touched = nullptr) const noexcept;
+  void apply_rgba(std::uint16_t* half_rgba, std::size_t count, std::uint8_t* touched = nullptr) const noexcept;
 
  private:
   struct Constants;

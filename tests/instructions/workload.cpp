@@ -32,10 +32,21 @@ int main(int argc, char** argv) {
     p.luminance = LuminancePolicy::none;
     p.xyz_from_gamut.reset();
   }
+  if (std::strcmp(argv[1], "kernel") == 0) p.model = Model::safko2019;
+  const bool half = std::strcmp(argv[1], "half") == 0;
   const bool dual = std::strcmp(argv[1], "double") == 0;
   const AppearanceBatch batch(p, dual ? Precision::dual : Precision::single);
   std::vector<float> r_out(pixels), g_out(pixels), b_out(pixels);
+  // Any bits of light will do for halves: 0x2000 to 0x27ff is .008 to .03.
+  std::vector<std::uint16_t> halves(3 * pixels), halves_out;
+  for (auto& x : halves) x = static_cast<std::uint16_t>(0x2000 + random() % 0x800);
   for (int i = 0; i < std::atoi(argv[2]); ++i) {
+    if (half) {
+      halves_out = halves;
+      std::uint16_t* const at = halves_out.data();
+      batch.apply(HalfRows{at, at + pixels, at + 2 * pixels, pixels});
+      continue;
+    }
     r_out = r, g_out = g, b_out = b;
     batch.apply({r_out.data(), g_out.data(), b_out.data(), nullptr, nullptr, nullptr, nullptr, pixels});
   }
