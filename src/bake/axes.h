@@ -7,11 +7,13 @@
 
 namespace scotopic {
 
-/// Brightness. Input: log2 of a luminance-like quantity in cd/m2; output: 0 to 1. The density of nodes per stop
+/// Brightness. Input: log2 of a luminance-like quantity in cd/m2; output: 0 to 1. The density of nodes per
+/// stop
 ///   1/(2^((a - x)/p) + 1 + 2^((x - b)/q)) (1 + bump) + floor
-/// is that of a p-th root in the dark - so that what is proportional to the light stays exactly so under linear
-/// interpolation, down to black -, even over the mesopic range, and low above it, where the operator is the
-/// identity; the bump lies where strong blues become photopic. Its constants are the result of a search for the least CIEDE2000 at 0.001 to 1 cd/m2.
+/// is that of a p-th root in the dark - so that what is proportional to the light stays exactly so under
+/// linear interpolation, down to black -, even over the mesopic range, and low above it, where the operator
+/// is the identity; the bump lies where strong blues become photopic. Its constants are the result of a
+/// search for the least CIEDE2000 at 0.001 to 1 cd/m2.
 class LevelAxis {
  public:
   /// `highest`: log2 of the brightest level; at least the lowest, -80, which stands for black.
@@ -44,9 +46,9 @@ class ShareAxis {
   std::vector<double> table_;
 };
 
-/// Coordinates of a colour in the LUT. Three positive quantities a, b, c - RGB of AP1 (AMPAS S-2014-004), which
-/// holds every colour of the usual working spaces, with red and blue at half weight so that white lies at the
-/// centre - in the order blue, red, green give the shares a/(a+b), (a+b)/(a+b+c) and the level a+b+c.
+/// Coordinates of a colour in the LUT. Three positive quantities a, b, c - RGB of AP1 (AMPAS S-2014-004),
+/// which holds every colour of the usual working spaces, with red and blue at half weight so that white lies
+/// at the centre - in the order blue, red, green give the shares a/(a+b), (a+b)/(a+b+c) and the level a+b+c.
 struct LookCoordinates {
   /// Weighted AP1 (blue, red, green) from D65-adapted XYZ.
   static Matrix3<double> from_xyz();

@@ -49,7 +49,7 @@ struct Chain {
   std::string id;
   std::string name;
   std::vector<std::string> descriptions;
-  std::string input;   ///< what the numbers going in are
+  std::string input;  ///< what the numbers going in are
   std::string output;
   std::vector<std::pair<std::string, std::string>> info;
   std::vector<Step> steps;

@@ -21,11 +21,16 @@ void put(Buffer& out, fmt::format_string<Args...> format, Args&&... args) {
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (c == '"') out += "&quot;";
-    else out += c;
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
   }
   return out;
 }
@@ -68,7 +73,8 @@ struct NodeWriter {
     put(out, "    </Array>\n  </LUT1D>\n");
   }
   void operator()(const Lut3DStep& step) const {
-    put(out, "  <LUT3D {0} interpolation=\"tetrahedral\">\n    <Array dim=\"{1} {1} {1} 3\">\n", depths, step.edge);
+    put(out, "  <LUT3D {0} interpolation=\"tetrahedral\">\n    <Array dim=\"{1} {1} {1} 3\">\n", depths,
+        step.edge);
     for (std::size_t i = 0; i < step.values.size(); i += 3) put_triplet(out, &step.values[i], step.decimals);
     put(out, "    </Array>\n  </LUT3D>\n");
   }
@@ -86,10 +92,12 @@ std::string xml_text(const Chain& chain, ChainFormat format) {
   put(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
   const std::string id = escaped(chain.id), name = escaped(chain.name);
   if (format == ChainFormat::clf)
-    put(out, "<ProcessList xmlns=\"urn:AMPAS:CLF:v3.0\" compCLFversion=\"3\" id=\"{}\" name=\"{}\">\n", id, name);
+    put(out, "<ProcessList xmlns=\"urn:AMPAS:CLF:v3.0\" compCLFversion=\"3\" id=\"{}\" name=\"{}\">\n", id,
+        name);
   else
     put(out, "<ProcessList version=\"2.0\" id=\"{}\" name=\"{}\">\n", id, name);
-  for (const std::string& text : chain.descriptions) put(out, "  <Description>{}</Description>\n", escaped(text));
+  for (const std::string& text : chain.descriptions)
+    put(out, "  <Description>{}</Description>\n", escaped(text));
   put(out, "  <InputDescriptor>{}</InputDescriptor>\n", escaped(chain.input));
   put(out, "  <OutputDescriptor>{}</OutputDescriptor>\n", escaped(chain.output));
   if (!chain.info.empty()) {
@@ -125,7 +133,8 @@ std::string cube_text(const Chain& chain) {
   const std::size_t n = lut.edge;
   for (std::size_t b = 0; b < n; ++b)
     for (std::size_t g = 0; g < n; ++g)
-      for (std::size_t r = 0; r < n; ++r) put_triplet(out, &lut.values[3 * ((r * n + g) * n + b)], lut.decimals);
+      for (std::size_t r = 0; r < n; ++r)
+        put_triplet(out, &lut.values[3 * ((r * n + g) * n + b)], lut.decimals);
   return fmt::to_string(out);
 }
 

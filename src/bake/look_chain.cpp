@@ -10,9 +10,9 @@ namespace scotopic {
 namespace {
 
 constexpr std::size_t table_length = 1024;
-constexpr double lowest_share = -24;   // log2 of the smallest share told from 0
-constexpr double black_level = -200;   // log2 that antilog2 makes an exact 0 in float
-constexpr double share_of_next = 4;    // log2: how far below its second entry a table's first, a 0, lies
+constexpr double lowest_share = -24;  // log2 of the smallest share told from 0
+constexpr double black_level = -200;  // log2 that antilog2 makes an exact 0 in float
+constexpr double share_of_next = 4;   // log2: how far below its second entry a table's first, a 0, lies
 
 struct Axes {
   LevelAxis level;
@@ -67,7 +67,8 @@ class Nodes {
   std::vector<float> r_, g_, b_;
 };
 
-/// Its nodes hold positions on the same axes as its input does: where the operator changes nothing, neither does it.
+/// Its nodes hold positions on the same axes as its input does: where the operator changes nothing, neither
+/// does it.
 Lut3DStep core(const AppearanceParameters& p, const Axes& axes, const Matrix3<double>& abc_from_rgb,
                std::size_t edge) {
   const Matrix3<double> rgb_from_abc = inverse(abc_from_rgb);
@@ -81,8 +82,8 @@ Lut3DStep core(const AppearanceParameters& p, const Axes& axes, const Matrix3<do
     const Vec3<double> t = axes.positions(abc);
     std::copy(t.begin(), t.end(), lut.values.begin() + static_cast<std::ptrdiff_t>(3 * n));
   }
-  // The lowest level is black, which has no shares of its own: those of the next, so that the last step down to
-  // black keeps its colour.
+  // The lowest level is black, which has no shares of its own: those of the next, so that the last step down
+  // to black keeps its colour.
   for (std::size_t n = 0; n < nodes.size(); n += edge)
     for (std::size_t c = 0; c < 2; ++c) lut.values[3 * n + c] = lut.values[3 * (n + 1) + c];
   return lut;
@@ -95,7 +96,8 @@ Lut1DStep positions_table(const Axes& axes) {
     const double s = static_cast<double>(i) / static_cast<double>(table_length - 1);
     const double share = axes.share.position(std::exp2(lowest_share * (1 - s)));
     lut.values[3 * i] = lut.values[3 * i + 1] = share;
-    lut.values[3 * i + 2] = axes.level.position(axes.level.lowest() + s * (axes.level.highest() - axes.level.lowest()));
+    lut.values[3 * i + 2] =
+        axes.level.position(axes.level.lowest() + s * (axes.level.highest() - axes.level.lowest()));
   }
   return lut;
 }

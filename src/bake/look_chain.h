@@ -19,9 +19,9 @@ inline constexpr double look_limit = 65504;
 ///   -> 1D: nodes where the operator bends -> 3D, `edge` nodes a side, tetrahedral -> 1D back
 ///   -> sums of logarithms -> antilog2 -> differences -> RGB.
 ///
-/// The 3D part is in cd/m2 and knows nothing of white_luminance, which sits in the matrices alone: as a function of the
-/// adaptation luminance there is one for each. Black is black, exactly; so is every colour that AP1 does not
-/// hold clamped to its border, continuously. `edge` is 2^k + 1, 17 to 129.
+/// The 3D part is in cd/m2 and knows nothing of white_luminance, which sits in the matrices alone: as a
+/// function of the adaptation luminance there is one for each. Black is black, exactly; so is every colour
+/// that AP1 does not hold clamped to its border, continuously. `edge` is 2^k + 1, 17 to 129.
 Chain look_chain(const AppearanceParameters& parameters, std::size_t edge);
 
 /// A change of encoding, in place: planar RGB.
@@ -29,7 +29,7 @@ using Encoding = std::function<void(float* r, float* g, float* b, std::size_t co
 
 /// One 3D LUT over encoded RGB 0..1, for formats that hold nothing else. Only for log or display encodings:
 /// evenly spaced nodes of linear light miss the dark.
-Chain encoded_lut(const AppearanceParameters& parameters, std::size_t edge, const Encoding& linear_from_encoded,
-                  const Encoding& encoded_from_linear);
+Chain encoded_lut(const AppearanceParameters& parameters, std::size_t edge,
+                  const Encoding& linear_from_encoded, const Encoding& encoded_from_linear);
 
 }  // namespace scotopic

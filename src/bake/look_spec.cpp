@@ -20,9 +20,8 @@ struct Word {
   Enum value;
   std::string_view name;
 };
-constexpr std::array<Word<Model>, 3> models = {{{Model::filament2021, "filament2021"},
-                                                {Model::kirk2011, "kirk2011"},
-                                                {Model::safko2019, "safko2019"}}};
+constexpr std::array<Word<Model>, 3> models = {
+    {{Model::filament2021, "filament2021"}, {Model::kirk2011, "kirk2011"}, {Model::safko2019, "safko2019"}}};
 constexpr std::array<Word<Weight>, 2> weights = {{{Weight::local, "local"}, {Weight::global, "global"}}};
 constexpr std::array<Word<LuminancePolicy>, 3> policies = {{{LuminancePolicy::mesopic, "mesopic"},
                                                             {LuminancePolicy::photopic, "photopic"},
@@ -52,7 +51,8 @@ class Values {
       const std::size_t end = std::min(line.find("; "), line.size());
       const std::string_view pair = line.substr(0, end);
       const std::size_t equals = pair.find('=');
-      if (equals != std::string_view::npos) values_[std::string(pair.substr(0, equals))] = pair.substr(equals + 1);
+      if (equals != std::string_view::npos)
+        values_[std::string(pair.substr(0, equals))] = pair.substr(equals + 1);
       line.remove_prefix(std::min(end + 2, line.size()));
     }
   }
@@ -101,19 +101,20 @@ class Values {
 
 }  // namespace
 
-std::string_view model_name(Model model) { return word(models, model); }
+std::string_view name_of(Model model) { return word(models, model); }
 
 std::string spec_text(const LookSpec& spec) {
   const AppearanceParameters& p = spec.parameters;
   std::string text = fmt::format(
-      "{}model={}; adaptation={}; white_luminance={}; weight={}; luminance={}; strength={}; strength_shift={}; "
+      "{}model={}; adaptation={}; white_luminance={}; weight={}; luminance={}; strength={}; "
+      "strength_shift={}; "
       "strength_luminance={}; strength_chroma={}; rods={}; sp_ratio={}; safko_scale={}; edge={}; encoded={}; "
       "space={}; gamut={}; xyz_from_rgb={}",
-      marker, model_name(p.model), number_text(p.adaptation), number_text(p.white_luminance), word(weights, p.weight),
-      word(policies, p.luminance), number_text(p.strength.all), number_text(p.strength.shift),
-      number_text(p.strength.luminance), number_text(p.strength.chroma), word(estimates, p.rods),
-      number_text(p.sp_ratio), number_text(p.safko_scale), spec.edge, spec.encoded ? 1 : 0, spec.space, spec.gamut,
-      matrix_text(p.xyz_from_rgb));
+      marker, name_of(p.model), number_text(p.adaptation), number_text(p.white_luminance),
+      word(weights, p.weight), word(policies, p.luminance), number_text(p.strength.all),
+      number_text(p.strength.shift), number_text(p.strength.luminance), number_text(p.strength.chroma),
+      word(estimates, p.rods), number_text(p.sp_ratio), number_text(p.safko_scale), spec.edge,
+      spec.encoded ? 1 : 0, spec.space, spec.gamut, matrix_text(p.xyz_from_rgb));
   if (p.xyz_from_gamut) text += "; xyz_from_gamut=" + matrix_text(*p.xyz_from_gamut);
   return text;
 }
@@ -147,7 +148,8 @@ std::optional<LookSpec> read_spec(std::string_view file) {
   spec.space = values.text("space");
   spec.gamut = values.text("gamut");
   values.read("xyz_from_rgb", p.xyz_from_rgb);
-  if (line.find("; xyz_from_gamut=") != std::string_view::npos) values.read("xyz_from_gamut", p.xyz_from_gamut.emplace());
+  if (line.find("; xyz_from_gamut=") != std::string_view::npos)
+    values.read("xyz_from_gamut", p.xyz_from_gamut.emplace());
   if (!values.whole()) return std::nullopt;
   return spec;
 }

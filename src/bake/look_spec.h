@@ -18,13 +18,13 @@ struct LookSpec {
 };
 
 /// "filament2021", "kirk2011", "safko2019".
-std::string_view model_name(Model model);
+std::string_view name_of(Model model);
 
 /// One line, "key=value; key=value; ...", that read_spec() reads back exactly. Part of every LUT's file.
 std::string spec_text(const LookSpec& spec);
 
-/// The spec from the text of a file that contains such a line (after "parameters:"); nullopt if there is none,
-/// or it is not whole, or a value is out of range.
+/// The spec from the text of a file that contains such a line (after "parameters:"); nullopt if there is
+/// none, or it is not whole, or a value is out of range.
 std::optional<LookSpec> read_spec(std::string_view file_text);
 
 }  // namespace scotopic

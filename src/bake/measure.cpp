@@ -35,7 +35,8 @@ class EvenPoints {
 
 }  // namespace
 
-Colours stop_colours(std::size_t count, const Matrix3<double>& xyz_from_gamut, const Matrix3<double>& xyz_from_rgb) {
+Colours stop_colours(std::size_t count, const Matrix3<double>& xyz_from_gamut,
+                     const Matrix3<double>& xyz_from_rgb) {
   const Matrix3<double> rgb_from_gamut = inverse(xyz_from_rgb) * xyz_from_gamut;
   const bool same = xyz_from_gamut.rows == xyz_from_rgb.rows;
   Colours colours;
@@ -56,7 +57,8 @@ Colours stop_colours(std::size_t count, const Matrix3<double>& xyz_from_gamut, c
   return colours;
 }
 
-BakeError compare(const Colours& in, const Colours& expected, const Colours& got, const Matrix3<double>& xyz_from_rgb) {
+BakeError compare(const Colours& in, const Colours& expected, const Colours& got,
+                  const Matrix3<double>& xyz_from_rgb) {
   const auto at = [](const Colours& c, std::size_t i) { return Vec3<double>{c.r[i], c.g[i], c.b[i]}; };
   std::vector<double> differences(expected.size());
   BakeError error;
@@ -82,7 +84,8 @@ BakeError compare(const Colours& in, const Colours& expected, const Colours& got
 
 Colours exact(const AppearanceParameters& parameters, Colours colours) {
   PixelRows rows;
-  rows.r = colours.r.data(), rows.g = colours.g.data(), rows.b = colours.b.data(), rows.count = colours.size();
+  rows.r = colours.r.data(), rows.g = colours.g.data(), rows.b = colours.b.data(),
+  rows.count = colours.size();
   AppearanceBatch(parameters, Precision::dual).apply(rows);
   return colours;
 }
@@ -104,7 +107,8 @@ BakeError measure_bake(const AppearanceParameters& parameters, const OCIO::Const
 OddPixels odd_pixels(const OCIO::ConstCPUProcessorRcPtr& processor) {
   constexpr float inf = std::numeric_limits<float>::infinity();
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-  const float odd[] = {0.f, -0.f, 0.18f, -0.18f, 1e-42f, -1e-42f, 65504.f, -65504.f, 3e38f, -3e38f, inf, -inf, nan};
+  const float odd[] = {0.f,      -0.f,  0.18f,  -0.18f, 1e-42f, -1e-42f, 65504.f,
+                       -65504.f, 3e38f, -3e38f, inf,    -inf,   nan};
   const float alphas[] = {0.f, 0.5f, 1.f, -1.f, 1e-42f};
   OddPixels result;
   for (const float r : odd)

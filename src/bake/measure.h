@@ -18,10 +18,11 @@ struct Colours {
   std::size_t size() const { return r.size(); }
 };
 
-/// The same `count` colours on every machine: brightness evenly over the 28 stops from 2^-20 to 2^8 of white, in the
-/// gamut with matrix xyz_from_gamut, converted to xyz_from_rgb. A quarter each: even over the faces of the RGB
-/// cube twice, strong colours (components cubed), and colours on the gamut's border.
-Colours stop_colours(std::size_t count, const Matrix3<double>& xyz_from_gamut, const Matrix3<double>& xyz_from_rgb);
+/// The same `count` colours on every machine: brightness evenly over the 28 stops from 2^-20 to 2^8 of white,
+/// in the gamut with matrix xyz_from_gamut, converted to xyz_from_rgb. A quarter each: even over the faces of
+/// the RGB cube twice, strong colours (components cubed), and colours on the gamut's border.
+Colours stop_colours(std::size_t count, const Matrix3<double>& xyz_from_gamut,
+                     const Matrix3<double>& xyz_from_rgb);
 
 /// CIEDE2000 at equal exposure (appearance/colour_difference.h) between what should be and what is.
 struct BakeError {
@@ -32,7 +33,8 @@ struct BakeError {
 };
 
 /// Statistics over planar linear RGB of one size.
-BakeError compare(const Colours& in, const Colours& expected, const Colours& got, const Matrix3<double>& xyz_from_rgb);
+BakeError compare(const Colours& in, const Colours& expected, const Colours& got,
+                  const Matrix3<double>& xyz_from_rgb);
 
 /// The operator's result, float rounded from double.
 Colours exact(const AppearanceParameters& parameters, Colours colours);
@@ -41,7 +43,8 @@ Colours exact(const AppearanceParameters& parameters, Colours colours);
 void apply(const OCIO_NAMESPACE::ConstCPUProcessorRcPtr& processor, Colours& colours);
 
 /// exact() against the processor on 1e5 stop_colours of a gamut.
-BakeError measure_bake(const AppearanceParameters& parameters, const OCIO_NAMESPACE::ConstCPUProcessorRcPtr& processor,
+BakeError measure_bake(const AppearanceParameters& parameters,
+                       const OCIO_NAMESPACE::ConstCPUProcessorRcPtr& processor,
                        const Matrix3<double>& xyz_from_gamut, std::size_t count = 100000);
 
 /// Pixels with NaN, infinities, negatives and denormals in every place: how many components come out not

@@ -29,7 +29,8 @@ struct ToOcio {
   OCIO::TransformRcPtr operator()(const LogStep& step) const {
     OCIO::LogTransformRcPtr log = OCIO::LogTransform::Create();
     log->setBase(2);
-    log->setDirection(step.style == LogStyle::log2 ? OCIO::TRANSFORM_DIR_FORWARD : OCIO::TRANSFORM_DIR_INVERSE);
+    log->setDirection(step.style == LogStyle::log2 ? OCIO::TRANSFORM_DIR_FORWARD
+                                                   : OCIO::TRANSFORM_DIR_INVERSE);
     return log;
   }
   OCIO::TransformRcPtr operator()(const Lut1DStep& step) const {

@@ -3,5 +3,5 @@
 
 int main(int argc, char** argv) {
   return scotopic::run_program(
-      argc, argv, {scotopic::add_apply, scotopic::add_lmsr, scotopic::add_explain});
+      argc, argv, {scotopic::add_apply, scotopic::add_lmsr, scotopic::add_explain, scotopic::add_bake});
 }

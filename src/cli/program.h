@@ -35,5 +35,6 @@ void on_command_line(CLI::App& verb, Invocation& invocation, const std::shared_p
 void add_apply(CLI::App& program, Invocation& invocation);
 void add_lmsr(CLI::App& program, Invocation& invocation);
 void add_explain(CLI::App& program, Invocation& invocation);
+void add_bake(CLI::App& program, Invocation& invocation);
 
 }  // namespace scotopic

@@ -1,0 +1,120 @@
+#include "bake/baked_look.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "bake/ladder.h"
+#include "bake/look_chain.h"
+#include "bake/number_text.h"
+#include "bake/ocio_chain.h"
+
+namespace OCIO = OCIO_NAMESPACE;
+
+namespace scotopic {
+namespace {
+
+constexpr std::string_view max_marker = "; max ";
+
+Encoding encoding(const RowConverter& converter) {
+  return [converter](float* r, float* g, float* b, std::size_t count) { converter.apply(r, g, b, count); };
+}
+
+/// Encoded values all over the unit cube.
+Colours encoded_colours(std::size_t count) {
+  Colours c = stop_colours(count, identity3<double>(), identity3<double>());
+  for (std::size_t i = 0; i < count; ++i)
+    for (float* x : {&c.r[i], &c.g[i], &c.b[i]})
+      *x = *x > 0 ? std::clamp(static_cast<float>((std::log2(*x) + 20) / 28), 0.f, 1.f) : 0.f;
+  return c;
+}
+
+std::string stated(const BakeError& e, const LookSpec& spec) {
+  return fmt::format(
+      "Error against the operator, CIEDE2000 with each pixel exposed to Y = 0.184, {} colours {}: mean {}; "
+      "99 % {}{}{}",
+      e.samples, spec.encoded ? "of encoded values 0 to 1" : "of the working gamut, 2^-20 to 2^8 of white",
+      rounded_text(e.mean, 2), rounded_text(e.p99, 2), max_marker, rounded_text(e.max, 2));
+}
+
+}  // namespace
+
+bool is_linear(const ColourConfig& config, const std::string& space) {
+  const RowConverter to = config.to_working(config.space(space));
+  const auto image = [&](float v) {
+    float p[3] = {v, v / 2, v / 4};
+    to.apply(&p[0], &p[1], &p[2], 1);
+    return Vec3<double>{p[0], p[1], p[2]};
+  };
+  const Vec3<double> one = image(0.25f), two = image(0.5f), none = image(0.f);
+  for (std::size_t i = 0; i < 3; ++i)
+    if (std::abs(two[i] - 2 * one[i]) > 1e-4 * std::abs(two[i]) || none[i] != 0) return false;
+  return true;
+}
+
+BakeError measure_encoded(const LookSpec& spec, const ColourConfig& config,
+                          const OCIO::ConstCPUProcessorRcPtr& processor) {
+  const RowConverter to = config.to_working(config.space(spec.space));
+  const RowConverter from = config.from_working(config.space(spec.space));
+  const auto convert = [](const RowConverter& c, Colours& x) {
+    c.apply(x.r.data(), x.g.data(), x.b.data(), x.size());
+  };
+  const Colours encoded = encoded_colours(100000);
+  Colours in = encoded;
+  convert(to, in);
+  // What the encoding itself cannot hold is not the LUT's fault.
+  Colours expected = exact(spec.parameters, in);
+  convert(from, expected);
+  for (auto* plane : {&expected.r, &expected.g, &expected.b})
+    for (float& x : *plane) x = std::clamp(x, 0.f, 1.f);
+  convert(to, expected);
+  Colours got = encoded;
+  apply(processor, got);
+  convert(to, got);
+  return compare(in, expected, got, spec.parameters.xyz_from_rgb);
+}
+
+BakedLook bake_look(const LookSpec& spec, const ColourConfig& config, const std::string& version) {
+  BakedLook look{spec, {}, {}};
+  Chain& chain = look.chain;
+  const OCIO::ConstConfigRcPtr raw = OCIO::Config::CreateRaw();
+  if (spec.encoded) {
+    const ColourSpace space = config.space(spec.space);
+    chain = encoded_lut(spec.parameters, spec.edge, encoding(config.to_working(space)),
+                        encoding(config.from_working(space)));
+    look.error = measure_encoded(spec, config, cpu_processor(ocio_transform(chain), raw));
+  } else {
+    if (is_identity(spec.parameters))
+      chain.steps = {MatrixStep{}};
+    else
+      chain = look_chain(spec.parameters, spec.edge);
+    look.error = measure_bake(spec.parameters, cpu_processor(ocio_transform(chain), raw),
+                              spec.parameters.xyz_from_rgb);
+  }
+  const AppearanceParameters& p = spec.parameters;
+  chain.name = look_name(p);
+  chain.id = fmt::format("scotopic-{}-{}{}", look_file_stem(p), spec.edge, spec.encoded ? "-encoded" : "");
+  chain.input = fmt::format("{}, 1 stands for {} cd/m2", spec.space, rounded_text(p.white_luminance, 6));
+  chain.output = spec.space;
+  chain.descriptions = {
+      fmt::format("What an eye adapted to {} cd/m2 sees, by the scotopic appearance operator {}, model {}",
+                  adaptation_text(p.adaptation), version, name_of(p.model)),
+      "Forward only: the operator has no inverse. Alpha is not touched", stated(look.error, spec),
+      spec_text(spec)};
+  chain.info = {{"Application", "scotopic"}, {"Version", version}};
+  return look;
+}
+
+std::optional<double> stated_max(std::string_view text) {
+  const std::size_t error = text.find("Error against the operator");
+  const std::size_t at = error == std::string_view::npos ? error : text.find(max_marker, error);
+  if (at == std::string_view::npos) return std::nullopt;
+  double value = 0;
+  const char* begin = text.data() + at + max_marker.size();
+  const auto result = std::from_chars(begin, text.data() + text.size(), value);
+  if (result.ec != std::errc()) return std::nullopt;
+  return value;
+}
+
+}  // namespace scotopic

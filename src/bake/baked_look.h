@@ -1,0 +1,33 @@
+// One look, baked and measured, ready to be written.
+#pragma once
+
+#include <string>
+
+#include "bake/chain.h"
+#include "bake/look_spec.h"
+#include "bake/measure.h"
+#include "image/colour_config.h"
+
+namespace scotopic {
+
+struct BakedLook {
+  LookSpec spec;
+  Chain chain;      ///< with all that the file says about itself
+  BakeError error;  ///< over colours of the working gamut; encoded: over the cube of encoded values
+};
+
+/// `version`: the program's. `config` holds spec.space where spec.encoded.
+/// A linear look of La >= 5 cd/m2 is an identity without a LUT.
+BakedLook bake_look(const LookSpec& spec, const ColourConfig& config, const std::string& version);
+
+/// Whether values of a space are proportional to light.
+bool is_linear(const ColourConfig& config, const std::string& space);
+
+/// Error of a processor that takes and gives values of spec.space, which is not linear.
+BakeError measure_encoded(const LookSpec& spec, const ColourConfig& config,
+                          const OCIO_NAMESPACE::ConstCPUProcessorRcPtr& processor);
+
+/// The largest error that a LUT file's text admits to; nullopt if it states none.
+std::optional<double> stated_max(std::string_view file_text);
+
+}  // namespace scotopic

@@ -1,0 +1,28 @@
+#include "bake/ladder.h"
+
+#include "appearance/stages.h"
+#include "bake/number_text.h"
+
+namespace scotopic {
+
+std::string adaptation_text(double adaptation) {
+  return adaptation >= 1e-4 && adaptation < 1e6 ? fixed_text(adaptation, 9) : number_text(adaptation);
+}
+
+bool is_identity(const AppearanceParameters& p) {
+  return p.model != Model::safko2019 && !(p.adaptation < photopic_luminance);
+}
+
+std::string look_name(const AppearanceParameters& p) {
+  std::string name = (is_identity(p) ? "Photopic " : "Mesopic ") + adaptation_text(p.adaptation) + " nit";
+  for (const LadderStep& step : ladder)
+    if (step.adaptation == p.adaptation) name += " (" + std::string(step.scene) + ")";
+  if (p.model != Model::filament2021) name += " " + std::string(name_of(p.model));
+  return name;
+}
+
+std::string look_file_stem(const AppearanceParameters& p) {
+  return std::string(name_of(p.model)) + "_" + adaptation_text(p.adaptation);
+}
+
+}  // namespace scotopic

@@ -1,0 +1,55 @@
+// Looks inside OpenColorIO configs: as look, as view and as colour space.
+#pragma once
+
+#include <OpenColorIO/OpenColorIO.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kernel/matrix3.h"
+
+namespace scotopic {
+
+/// A look as a config holds it. With neither file nor matrix it changes nothing.
+struct LookEntry {
+  std::string name;
+  std::string description;
+  std::string file;                       ///< found on the config's search path; may hold $VARIABLES
+  std::optional<Matrix3<double>> matrix;  ///< instead of a file
+  bool view = true;                       ///< on the displays' menus, too
+};
+
+/// Where in a config looks go.
+struct LookPlace {
+  std::string process_space;    ///< the scene-linear space that looks are made for
+  std::string reference_space;  ///< a space that is the scene reference itself
+};
+
+/// Beside every look's file: a transform that has no inverse (see add_look).
+inline constexpr const char* forward_only_file = "forward_only.clf";
+
+/// Adds look and colour space. Both are forward only, unless they are a matrix: their inverse is declared to be
+/// that of forward_only_file, which fails, since OCIO's own inverse of a 3D LUT would be wrong without a word.
+void add_look(OCIO_NAMESPACE::Config& config, const LookEntry& look, const LookPlace& place);
+
+/// A no-op look of this name: the first one of a config, because some programs apply the first unasked.
+void add_noop_look(OCIO_NAMESPACE::Config& config, const std::string& name, const LookPlace& place);
+
+/// The scene reference: a space without transforms that is not data. Error(config) if there is none.
+std::string reference_space(const OCIO_NAMESPACE::Config& config);
+
+/// The project's own config with looks. Every display offers each look with view true twice: as it is, and
+/// " soft" with highlights rolled off (by `highlight_file`).
+OCIO_NAMESPACE::ConfigRcPtr make_look_config(const std::vector<LookEntry>& looks,
+                                             const std::string& highlight_file,
+                                             const std::string& search_path);
+
+/// The text of a config after OCIO's own validation; Error(config) if it finds fault.
+std::string config_text(const OCIO_NAMESPACE::Config& config);
+
+/// The luminance that $SCOTOPIC_LA has where nobody sets it.
+inline constexpr const char* context_variable = "SCOTOPIC_LA";
+inline constexpr const char* context_default = "0.1";
+
+}  // namespace scotopic

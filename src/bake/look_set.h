@@ -1,0 +1,35 @@
+// A whole set of looks: which there are, their files, the configs that hold them, the manifest.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bake/baked_look.h"
+#include "bake/look_config.h"
+
+namespace scotopic {
+
+struct TextFile {
+  std::string name;  ///< relative to its folder
+  std::string text;
+};
+
+struct LookSet {
+  std::vector<BakedLook> looks;
+  std::vector<LookEntry> entries;  ///< of the looks, the context look and the matrix looks
+  std::vector<TextFile> luts;
+};
+
+/// Bakes `specs` (linear ones, all with the same working space), in their order. `context`: add the look that
+/// takes its luminance from $SCOTOPIC_LA, over the first spec's model.
+LookSet bake_set(const std::vector<LookSpec>& specs, const ColourConfig& config, const std::string& version,
+                 bool context);
+
+/// luts/MANIFEST: what `sha256sum -c` checks; a comment before each file states its error.
+std::string manifest_text(const LookSet& set, const std::string& version, const std::string& command);
+
+/// The config's own text and the LUTs' (with the highlight curve), all beside it in folder luts.
+std::string look_config_text(const LookSet& set);
+
+}  // namespace scotopic
