@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "cli/acuity_options.h"
 #include "cli/image_options.h"
 #include "cli/operator_options.h"
 #include "cli/program.h"
@@ -19,6 +20,7 @@ struct ApplyOptions {
   std::string output;
   OperatorOptions appearance;
   BandOptions bands;
+  AcuityOptions acuity;
   ImageOptions image;
   CommonOptions common;
 };
@@ -101,6 +103,7 @@ void plan_effects(AppearanceParameters& parameters, const SceneStatistics& stati
 int run_apply(const ApplyOptions& options) {
   const Console console(options.common);
   OperatorChoice choice = understand(options.appearance);
+  const AcuityChoice acuity_choice = understand(options.acuity);
   const ImageRequest request = understand(options.image);
   const SpectralOptions spectral = understand(options.bands, choice.illuminant, options.image.layer);
   (void)output_format(options.output);
@@ -124,9 +127,14 @@ int run_apply(const ApplyOptions& options) {
   parameters.white_luminance = numbers.white_luminance;
   if (choice.plan_effects) plan_effects(parameters, *statistics, console);
 
-  const std::vector<Attribute> stamps = stamps_of(parameters, choice, layout);
+  const AngularResolution resolution = angular_resolution(acuity_choice, *source, layout);
+  const std::optional<AcuityFilter> acuity = acuity_filter(acuity_choice, parameters, resolution, console);
+
+  std::vector<Attribute> stamps = stamps_of(parameters, choice, layout);
+  if (acuity) stamps.push_back({"scotopic:acuityPixelsPerDegree", resolution.pixels_per_degree});
   set_stamps(layout, stamps);
-  apply_image(*source, layout, config, AppearanceBatch(parameters, choice.precision), file);
+  apply_image(*source, layout, config, AppearanceBatch(parameters, choice.precision), file, nullptr,
+              acuity ? &*acuity : nullptr);
   console.result(result_of(options, numbers, layout, stamps, *source));
   return static_cast<int>(ExitCode::done);
 }
@@ -145,6 +153,7 @@ void add_apply(CLI::App& program, Invocation& invocation) {
       ->type_name("OUT");
   add_operator_options(verb, options->appearance);
   add_band_options(verb, options->bands);
+  add_acuity_options(verb, options->acuity);
   add_input_options(verb, options->image);
   add_output_options(verb, options->image);
   add_common_options(verb, options->common);
