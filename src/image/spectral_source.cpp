@@ -2,26 +2,20 @@
 
 #include <Imath/ImathBox.h>
 #include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfCompression.h>
-#include <OpenEXR/ImfDoubleAttribute.h>
-#include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfPartType.h>
-#include <OpenEXR/ImfStringAttribute.h>
-#include <OpenEXR/ImfTileDescription.h>
-#include <OpenImageIO/parallel.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <set>
 
 #include "image/error.h"
 #include "image/exr_source.h"
+#include "image/row_bands.h"
+#include "image/spectral_header.h"
 #include "receptors/illuminant.h"
 #include "receptors/receptor_space.h"
 
@@ -40,62 +34,12 @@ struct Place {
   Imf::PixelType type;
 };
 
-int rows_compressed_together(const Imf::Header& header) {
-  if (header.hasTileDescription()) return static_cast<int>(header.tileDescription().ySize);
-  switch (header.compression()) {
-    case Imf::ZIP_COMPRESSION:
-    case Imf::PXR24_COMPRESSION:
-      return 16;
-    case Imf::PIZ_COMPRESSION:
-    case Imf::B44_COMPRESSION:
-    case Imf::B44A_COMPRESSION:
-    case Imf::DWAA_COMPRESSION:
-      return 32;
-    case Imf::DWAB_COMPRESSION:
-      return 256;
-    default:
-      return 1;
-  }
-}
-
-std::optional<double> wavelength_attribute(const Imf::Header& header, const std::string& channel) {
-  const std::string name = channel + ".wavelength";
-  if (const auto* value = header.findTypedAttribute<Imf::FloatAttribute>(name)) return value->value();
-  if (const auto* value = header.findTypedAttribute<Imf::DoubleAttribute>(name)) return value->value();
-  if (const auto* text = header.findTypedAttribute<Imf::StringAttribute>(name)) {
-    double value = 0.0;
-    const std::string& digits = text->value();
-    const char* const end = digits.data() + digits.size();
-    const auto [stop, error] = std::from_chars(digits.data(), end, value);
-    if (error == std::errc() && (stop == end || *stop == ' ')) return value;
-  }
-  return std::nullopt;
-}
-
-std::string text_attribute(const Imf::Header& header, const std::string& name) {
-  const auto* text = header.findTypedAttribute<Imf::StringAttribute>(name);
-  return text ? text->value() : std::string();
-}
-
 Window window(const Imath::Box2i& box) { return {box.min.x, box.min.y, box.max.x + 1, box.max.y + 1}; }
 
 std::string one_line(const std::string& text) {
   std::string line = text.substr(0, text.find('\n'));
   while (!line.empty() && line.back() == '.') line.pop_back();
   return line;
-}
-
-// The layout's own readers and every renderer known to write it (ART, pbrt, Mitsuba's scripts) hold values
-// per nm and write "W.m^-2.sr^-1".
-std::pair<BandUnit, std::string> band_unit(const std::string& units, const std::optional<BandUnit>& chosen) {
-  if (chosen)
-    return {*chosen,
-            fmt::format("radiance taken per {}, as asked", *chosen == BandUnit::per_nm ? "nm" : "band")};
-  if (units.find("nm^-1") != units.npos || units.find("/nm") != units.npos)
-    return {BandUnit::per_nm, fmt::format("radiance per nm: emissiveUnits is \"{}\"", units)};
-  if (units.empty()) return {BandUnit::per_nm, "radiance assumed to be W/(m2 sr nm): the file does not say"};
-  return {BandUnit::per_nm,
-          fmt::format("radiance assumed to be per nm: emissiveUnits is only \"{}\"", units)};
 }
 
 class ExrSpectralSource final : public SpectralSource {
@@ -227,7 +171,7 @@ SpectralWeights ExrSpectralSource::weights(const BandGrid& grid, const SpectralO
     return reflective_weights(grid, options.sampling, named->curve());
   }
   const Imf::Header& any = header_of(channels_[layout_.bands.front().channel]);
-  const auto [unit, why] = band_unit(text_attribute(any, "emissiveUnits"), options.band_unit);
+  const auto [unit, why] = band_unit_of(text_attribute(any, "emissiveUnits"), options.band_unit);
   report_.notes.push_back(why);
   return emissive_weights(grid, options.sampling, unit);
 }
@@ -331,28 +275,8 @@ ColourChannels ExrSpectralSource::colour(std::size_t, const std::string&) const 
   return colour;
 }
 
-// What only spectra have would be untrue of the image made of them.
 std::vector<Attribute> ExrSpectralSource::attributes(std::size_t) const {
-  static const std::set<std::string> spectral = {"spectralLayoutVersion",
-                                                 "emissiveUnits",
-                                                 "polarisationHandedness",
-                                                 "EV",
-                                                 "whiteLuminance",
-                                                 "name",
-                                                 "type"};
-  const Imf::Header& header = header_of(bands_.front());
-  std::vector<Attribute> out;
-  for (auto entry = header.begin(); entry != header.end(); ++entry) {
-    const std::string name = entry.name();
-    if (spectral.count(name) || name.find(".wavelength") != name.npos) continue;
-    const Imf::Attribute& attribute = entry.attribute();
-    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute)) {
-      out.push_back({name, text->value()});
-    } else if (const auto* number = dynamic_cast<const Imf::FloatAttribute*>(&attribute)) {
-      out.push_back({name, static_cast<double>(number->value())});
-    }
-  }
-  return out;
+  return attributes_without_spectral_ones(header_of(bands_.front()));
 }
 
 void ExrSpectralSource::read_rows(int y0, int rows, Band& band) {
@@ -410,8 +334,7 @@ void ExrSpectralSource::copy_receptors(const float* from, std::size_t count, con
 void ExrSpectralSource::weigh_rows(int first, int rows, Band& band) const {
   const auto width = static_cast<std::size_t>(band.width);
   const std::size_t row_values = width * bands_.size();
-  OIIO::parallel_for(std::int64_t{0}, std::int64_t{rows}, [&](std::int64_t row) {
-    const auto r = static_cast<std::size_t>(row);
+  const auto weigh_row = [&](std::size_t r) {
     SignalRows out{};
     for (std::size_t s = 0; s < signals_; ++s)
       out[s] = band.signals[s].data() + (static_cast<std::size_t>(first - band.y0) + r) * width;
@@ -424,6 +347,9 @@ void ExrSpectralSource::weigh_rows(int first, int rows, Band& band) const {
       integrator_->integrate(reinterpret_cast<const float*>(buffer_.data()) + r * row_values, width, width,
                              out);
     }
+  };
+  parallel_rows(rows, 4, [&](int begin, int end) {
+    for (int row = begin; row < end; ++row) weigh_row(static_cast<std::size_t>(row));
   });
 }
 
