@@ -29,6 +29,9 @@ struct Constants {
   AcuitySpace space = AcuitySpace::light;
 };
 
+/// Throws std::invalid_argument unless the window holds the tile and `halo` pixels around it.
+void require_window(const AcuityWindow& window, const AcuityTile& tile, int halo);
+
 /// CIELAB values farther from black than this are no colours: such pixels neither give nor take.
 inline constexpr float lab_limit = 1e5f;
 /// Scaled lightness that marks a pixel as absent; its weight is 0 for every pixel that is present.

@@ -143,14 +143,7 @@ void serial_for(int count, const std::function<void(int)>& task) {
 void AcuityFilter::filter(const AcuityWindow& window, const AcuityTile& tile,
                           const ParallelFor& parallel_for) const {
   if (tile.width <= 0 || tile.height <= 0) return;
-  const int halo = plan_->halo;
-  const auto holds = [halo](int low, int size, int tile_low, int tile_size, int image) {
-    return low >= 0 && low <= std::max(0, tile_low - halo) && low + size <= image && tile_low >= low &&
-           tile_low + tile_size <= low + size && low + size >= std::min(image, tile_low + tile_size + halo);
-  };
-  require(holds(window.x, window.width, tile.x, tile.width, window.image_width) &&
-              holds(window.y, window.height, tile.y, tile.height, window.image_height),
-          "the window must hold the tile and its halo");
+  acuity::require_window(window, tile, plan_->halo);
   if (plan_->identity) return plan_->copy(window, tile);
   if (plan_->engine == AcuityEngine::window) return plan_->filter_window(window, tile, parallel_for);
   plan_->filter_cells(window, tile, parallel_for);
@@ -210,6 +203,16 @@ void AcuityFilter::Plan::filter_cells(const AcuityWindow& window, const AcuityTi
                                 high - low + 1);
     });
   }
+}
+
+void acuity::require_window(const AcuityWindow& window, const AcuityTile& tile, int halo) {
+  const auto holds = [halo](int low, int size, int tile_low, int tile_size, int image) {
+    return low >= 0 && low <= std::max(0, tile_low - halo) && low + size <= image && tile_low >= low &&
+           tile_low + tile_size <= low + size && low + size >= std::min(image, tile_low + tile_size + halo);
+  };
+  require(holds(window.x, window.width, tile.x, tile.width, window.image_width) &&
+              holds(window.y, window.height, tile.y, tile.height, window.image_height),
+          "the window must hold the tile and its halo");
 }
 
 acuity::LabRows::LabRows(int width, int margin_pixels, int row_count) : margin(margin_pixels) {

@@ -63,31 +63,47 @@ using ParallelFor = std::function<void(int count, const std::function<void(int)>
 /// One task after the other, on the calling thread.
 void serial_for(int count, const std::function<void(int)>& task);
 
+/// A filter of an image's light that looks at the pixels around each. Immutable: share it between threads.
+class SpatialFilter {
+ public:
+  virtual ~SpatialFilter() = default;
+
+  /// Pixels around a tile that its window must hold, as far as the image goes; 0 where the filter is the
+  /// identity.
+  virtual int halo() const noexcept = 0;
+
+  /// Computes `tile` from `window`. The result of a pixel depends on the image alone: not on tile, window or
+  /// threads. Throws std::invalid_argument where the window does not hold the tile and its halo.
+  virtual void filter(const AcuityWindow& window, const AcuityTile& tile,
+                      const ParallelFor& parallel_for = serial_for) const = 0;
+
+ protected:
+  SpatialFilter() = default;
+  SpatialFilter(SpatialFilter&&) = default;
+  SpatialFilter& operator=(SpatialFilter&&) = default;
+};
+
 /// The filter with all that does not depend on the image worked out. Immutable: share it between threads.
 ///
 /// A pixel with a non-finite component, or beyond 1e5 CIELAB units from black (light over 6e8 times the
 /// white), passes unchanged and is seen by no other pixel. Pixels outside the image do not exist: nothing is
 /// mirrored or padded, and a constant image comes back bit for bit.
-class AcuityFilter {
+class AcuityFilter : public SpatialFilter {
  public:
   /// Throws std::invalid_argument where a parameter is outside its stated domain.
   explicit AcuityFilter(const AcuityParameters& parameters);
-  ~AcuityFilter();
+  ~AcuityFilter() override;
   AcuityFilter(AcuityFilter&&) noexcept;
   AcuityFilter& operator=(AcuityFilter&&) noexcept;
 
-  /// Pixels around a tile that its window must hold, as far as the image goes; 0 where the filter is the
-  /// identity.
-  int halo() const noexcept;
+  int halo() const noexcept override;
 
   /// The engine in use: window or cells.
   AcuityEngine engine() const noexcept;
 
-  /// Computes `tile` from `window`. The result of a pixel depends on the image alone: not on tile, window or
-  /// threads. Scratch memory: some (rows of 256 + 2 halo) x window.width x 40 bytes at most.
-  /// Throws std::invalid_argument where the window does not hold the tile and its halo.
+  /// Scratch memory: some (rows of 256 + 2 halo) x window.width x 40 bytes at most.
   void filter(const AcuityWindow& window, const AcuityTile& tile,
-              const ParallelFor& parallel_for = serial_for) const;
+              const ParallelFor& parallel_for = serial_for) const override;
 
  private:
   struct Plan;
