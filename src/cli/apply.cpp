@@ -1,11 +1,13 @@
 // scotopic apply: an image as the dark-adapted eye sees it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cli/acuity_options.h"
 #include "cli/image_options.h"
 #include "cli/operator_options.h"
+#include "cli/precision_options.h"
 #include "cli/program.h"
 #include "cli/scene_numbers.h"
 #include "cli/spectral_options.h"
@@ -19,6 +21,7 @@ struct ApplyOptions {
   std::string input;
   std::string output;
   OperatorOptions appearance;
+  PrecisionOptions precision;
   BandOptions bands;
   AcuityOptions acuity;
   ImageOptions image;
@@ -100,9 +103,18 @@ void plan_effects(AppearanceParameters& parameters, const SceneStatistics& stati
   parameters = plan.parameters;
 }
 
+/// Whether pixels bring signals of their own beside RGB.
+bool has_receptors(const ImageLayout& layout) {
+  using Kind = ColourChannels::Kind;
+  return std::any_of(layout.light.begin(), layout.light.end(), [](const LightPicture& light) {
+    return light.channels.kind == Kind::lmsr || light.channels.kind == Kind::computed;
+  });
+}
+
 int run_apply(const ApplyOptions& options) {
   const Console console(options.common);
   OperatorChoice choice = understand(options.appearance);
+  const PrecisionChoice precision = understand(options.precision);
   const AcuityChoice acuity_choice = understand(options.acuity);
   const ImageRequest request = understand(options.image);
   const SpectralOptions spectral = understand(options.bands, choice.illuminant, options.image.layer);
@@ -128,14 +140,18 @@ int run_apply(const ApplyOptions& options) {
   if (choice.plan_effects) plan_effects(parameters, *statistics, console);
 
   const AngularResolution resolution = angular_resolution(acuity_choice, *source, layout);
-  const std::optional<AcuityFilter> acuity = acuity_filter(acuity_choice, parameters, resolution, console);
+  const std::unique_ptr<SpatialFilter> acuity = acuity_filter(acuity_choice, parameters, resolution, console);
 
+  const ChosenWay way = settle(precision, parameters, has_receptors(layout), console);
   std::vector<Attribute> stamps = stamps_of(parameters, choice, layout);
+  stamps.push_back({"scotopic:precision", way.name});
   if (acuity) stamps.push_back({"scotopic:acuityPixelsPerDegree", resolution.pixels_per_degree});
   set_stamps(layout, stamps);
-  apply_image(*source, layout, config, AppearanceBatch(parameters, choice.precision), file, nullptr,
-              acuity ? &*acuity : nullptr);
-  console.result(result_of(options, numbers, layout, stamps, *source));
+  apply_image(*source, layout, config, way.apply, file, nullptr,
+              acuity.get());
+  nlohmann::ordered_json result = result_of(options, numbers, layout, stamps, *source);
+  if (!way.report.is_null()) result["ways"] = way.report;
+  console.result(result);
   return static_cast<int>(ExitCode::done);
 }
 
@@ -152,6 +168,7 @@ void add_apply(CLI::App& program, Invocation& invocation) {
       ->required()
       ->type_name("OUT");
   add_operator_options(verb, options->appearance);
+  add_precision_options(verb, options->precision);
   add_band_options(verb, options->bands);
   add_acuity_options(verb, options->acuity);
   add_input_options(verb, options->image);

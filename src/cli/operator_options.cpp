@@ -31,10 +31,6 @@ const Names<RodEstimate>& rod_estimates() {
                                            {"quadratic", RodEstimate::quadratic}};
   return names;
 }
-const Names<Precision>& precisions() {
-  static const Names<Precision> names = {{"float", Precision::single}, {"double", Precision::dual}};
-  return names;
-}
 
 template <typename T>
 std::string name_of_value(const Names<T>& names, T value) {
@@ -99,7 +95,6 @@ void add_operator_options(CLI::App& verb, OperatorOptions& o) {
   add("--illuminant", o.illuminant, "S/P ratio, spectrum (nm and power a line), or of: " + illuminant_names(),
       "NAME|S/P|FILE");
   add("--rods", o.rods, "Rods from colour: linear (default) or quadratic", "NAME");
-  add("--precision", o.precision, "float (default) or double inside", "NAME");
 }
 
 OperatorChoice understand(const OperatorOptions& o) {
@@ -120,7 +115,6 @@ OperatorChoice understand(const OperatorOptions& o) {
   out.illuminant = understand_illuminant(o.illuminant);
   p.sp_ratio = out.illuminant.sp_ratio;
   p.rods = choice("--rods", o.rods, rod_estimates());
-  out.precision = choice("--precision", o.precision, precisions());
   return out;
 }
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "appearance/batch.h"
+#include "appearance/parameters.h"
 #include "cli/spectral_options.h"
 #include "image/colour_config.h"
 
@@ -26,7 +26,6 @@ struct OperatorOptions {
   std::string gamut = "working";
   std::string illuminant = "d65";
   std::string rods = "linear";
-  std::string precision = "float";
 };
 
 /// As understood. Adaptation, white luminance and primaries in `parameters` are not set yet.
@@ -37,7 +36,6 @@ struct OperatorChoice {
   bool plan_effects = false;              ///< --effects auto
   std::string gamut;
   IlluminantChoice illuminant;
-  Precision precision = Precision::single;
 };
 
 void add_operator_options(CLI::App& verb, OperatorOptions& options);

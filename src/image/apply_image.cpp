@@ -18,11 +18,11 @@ namespace {
 class PictureRun {
  public:
   PictureRun(const PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-             const AppearanceBatch& batch, const OutputPicture& out)
+             const RowOperator& apply, const OutputPicture& out)
       : light_(*layout.light_of(out.source)),
         source_picture_(source.pictures()[out.source]),
         out_(out),
-        batch_(batch),
+        apply_(apply),
         reader_(light_.channels, config, light_.space) {
     writer_.from_working = config.from_working(layout.output_space);
     writer_.gain = static_cast<float>(std::exp2(layout.exposure));
@@ -80,7 +80,7 @@ class PictureRun {
 
   void see_row(const Band& in, int row, LightRow& light) const {
     reader_.read(in, row, light);
-    batch_.apply(light.pixels(reader_.receptors()), light.touched.data());
+    apply_(light.pixels(reader_.receptors()), light.touched.data());
   }
 
   void write_row(const Band& in, int row, LightRow& light, Band& out) const {
@@ -131,7 +131,7 @@ class PictureRun {
   const LightPicture& light_;
   const Picture& source_picture_;
   const OutputPicture& out_;
-  const AppearanceBatch& batch_;
+  const RowOperator& apply_;
   LightReader reader_;
   LightWriter writer_;
   std::vector<std::size_t> others_;  // channel of the source for each output channel after R, G, B
@@ -190,8 +190,8 @@ SceneStatistics measure_image(PixelSource& source, const ImageLayout& layout, co
 }
 
 void apply_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-                 const AppearanceBatch& batch, OutputFile& file, const Progress& progress,
-                 const AcuityFilter* acuity) {
+                 const RowOperator& apply, OutputFile& file, const Progress& progress,
+                 const SpatialFilter* acuity) {
   const std::unique_ptr<PixelSink> sink = open_sink(layout.format, file, source, layout.outputs);
   const std::int64_t total = all_rows(layout);
   std::int64_t done = 0;
@@ -202,7 +202,7 @@ void apply_image(PixelSource& source, const ImageLayout& layout, const ColourCon
       sink->copy(i);
       continue;
     }
-    const PictureRun run(source, layout, config, batch, layout.outputs[i]);
+    const PictureRun run(source, layout, config, apply, layout.outputs[i]);
     const Picture& picture = source.pictures()[layout.outputs[i].source];
     // OpenEXR wants the rows in the order that its header states, the other formats from the top.
     const bool descending = picture.descending && layout.format == "openexr";

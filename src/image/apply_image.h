@@ -62,6 +62,10 @@ ImageLayout plan_layout(const PixelSource& source, const std::string& output, co
 /// Marks the layout's colour pictures with what was applied.
 void set_stamps(ImageLayout& layout, const std::vector<Attribute>& stamps);
 
+/// The operator on rows of pixels, whichever way it is computed; what touched says is as AppearanceBatch::apply
+/// has it. Called from any number of threads at once.
+using RowOperator = std::function<void(const PixelRows& rows, std::uint8_t* touched)>;
+
 /// Called after each band with rows done and rows in all.
 using Progress = std::function<void(std::int64_t done, std::int64_t total)>;
 
@@ -72,8 +76,8 @@ SceneStatistics measure_image(PixelSource& source, const ImageLayout& layout, co
 /// Writes the whole output; `acuity` is applied last, to each picture by itself. Same bytes for any number of
 /// threads.
 void apply_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-                 const AppearanceBatch& batch, OutputFile& file, const Progress& progress = nullptr,
-                 const AcuityFilter* acuity = nullptr);
+                 const RowOperator& apply, OutputFile& file, const Progress& progress = nullptr,
+                 const SpatialFilter* acuity = nullptr);
 
 /// Threads for rows and for OpenEXR's chunks; 0: one for each processor.
 void set_threads(int count);
