@@ -27,7 +27,8 @@ double mesopic_photopic_limit() noexcept;
 double mesopic_scotopic_limit(double sp_ratio = sp_ratio_d65) noexcept;
 
 /// m of a light of luminance `photopic` and the given S/P ratio: the same fixed point, by Newton's method on
-/// its explicit inverse. Non-decreasing in `photopic`; exactly 0 and 1 outside the two limits.
+/// its explicit inverse. Non-decreasing in `photopic`; exactly 0 and 1 outside the two limits. (For S/P under .1, less
+/// than any lamp's, MES2 has two fixed points at once; this is the lower one.)
 double mesopic_coefficient(double photopic, double sp_ratio = sp_ratio_d65) noexcept;
 
 }  // namespace scotopic

@@ -52,7 +52,7 @@ double allowed_error(Way way, RodEstimate rods, const Strain& strain) {
   const double in_double = strain.cancelled ? 1e-9 + 0x1p-44 * strain.root : 2e-13 + 0x1p-47 * strain.root;
   if (way == Way::reference) return in_double;
   if (way == Way::dual) return 0x1p-24 + in_double;
-  return (rods == RodEstimate::quadratic ? 4e-6 : 2e-6) + in_double;
+  return (strain.cancelled ? 8e-6 : rods == RodEstimate::quadratic ? 4e-6 : 2e-6) + in_double;
 }
 
 std::string to_text(Regime regime, Way way, const Worst& w) {

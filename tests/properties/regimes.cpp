@@ -68,7 +68,7 @@ Rgb draw_rgb(Regime regime, const OperatorConstants& c, Random& random) {
       return rgb;
     case Regime::subnormal: return signed_values(1.5e-45, 1.1e-38);
     case Regime::tiny: return signed_values(1e-38, 1e-20);
-    case Regime::huge: return signed_values(1e20, 0x1.1p120);
+    case Regime::huge: return random.chance(0.1) ? signed_values(0x0.fp120, 0x1.1p120) : signed_values(1e20, 0x1p120);
     case Regime::half_extremes: {
       constexpr std::array<double, 6> ends = {65504, -65504, 5.9604644775390625e-8, 6.103515625e-5, 0, 6.1e-5};
       for (auto& x : rgb) x = ends[static_cast<std::size_t>(random.below(6))];

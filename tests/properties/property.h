@@ -1,0 +1,136 @@
+// RapidCheck under GoogleTest: a fixed number of draws, a fixed seed, and coverage that is asserted, not hoped for.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <ostream>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "properties/regimes.h"
+
+namespace scotopic::test {
+
+/// A setting and a pixel; shrinks towards the default setting, and to fewer and rounder components.
+struct Case {
+  AppearanceParameters parameters;
+  Planes planes = Planes::rgb;
+  Regime regime = Regime::ordinary;
+  Sample sample;
+};
+
+inline std::ostream& operator<<(std::ostream& out, const Case& c) {
+  char text[300];
+  std::snprintf(text, sizeof text, "%s, planes %d, rgb (%.9g, %.9g, %.9g) cones (%.9g, %.9g, %.9g) rod %.9g, setting ",
+                name(c.regime), static_cast<int>(c.planes), c.sample.rgb[0], c.sample.rgb[1], c.sample.rgb[2],
+                c.sample.cones[0], c.sample.cones[1], c.sample.cones[2], c.sample.rod);
+  return out << text << to_text(c.parameters);
+}
+
+/// Counts how often a draw was of a kind.
+class Coverage {
+ public:
+  void operator()(const std::string& kind, bool yes = true) { hits_[kind] += yes; }
+  int hits(const std::string& kind) const {
+    const auto found = hits_.find(kind);
+    return found == hits_.end() ? 0 : found->second;
+  }
+
+ private:
+  std::map<std::string, int> hits_;
+};
+
+/// Kinds that must make up at least these shares of the draws.
+using Shares = std::vector<std::pair<std::string, double>>;
+
+inline std::vector<Case> simpler(const Case& c) {
+  std::vector<Case> out;
+  const auto with = [&](auto change) {
+    Case next = c;
+    change(next);
+    if (to_text(next.parameters) != to_text(c.parameters) || next.planes != c.planes ||
+        next.sample.rgb != c.sample.rgb || next.sample.rod != c.sample.rod)
+      out.push_back(next);
+  };
+  const AppearanceParameters plain;
+  with([](Case& x) { x.planes = Planes::rgb; });
+  with([&](Case& x) { x.parameters.strength = plain.strength; });
+  with([&](Case& x) { x.parameters.rods = plain.rods, x.parameters.sp_ratio = plain.sp_ratio; });
+  with([&](Case& x) { x.parameters.weight = plain.weight; });
+  with([&](Case& x) { x.parameters.xyz_from_gamut.reset(); });
+  for (std::size_t i = 0; i < 3; ++i) {
+    with([&](Case& x) { x.sample.rgb[i] = 0; });
+    with([&](Case& x) {
+      char text[20];
+      std::snprintf(text, sizeof text, "%.1e", static_cast<double>(x.sample.rgb[i]));
+      x.sample.rgb[i] = std::strtof(text, nullptr);
+    });
+  }
+  return out;
+}
+
+/// Cases of all regimes but those left out.
+inline rc::Gen<Case> cases(std::vector<Regime> without = {}) {
+  return [without](const rc::Random& random, int) {
+    Random draws(rc::Random(random).next());
+    Case c;
+    c.parameters = draw_parameters(draws);
+    c.planes = draw_planes(draws);
+    do c.regime = static_cast<Regime>(draws.below(regime_count));
+    while (std::find(without.begin(), without.end(), c.regime) != without.end());
+    c.sample = draw(c.regime, OperatorConstants(c.parameters), draws);
+    return rc::shrinkable::shrinkRecur(c, [](const Case& x) { return rc::seq::fromContainer(simpler(x)); });
+  };
+}
+
+/// A stream of numbers of its own for each draw; for properties of something other than a pixel.
+inline rc::Gen<std::uint64_t> seeds() {
+  return [](const rc::Random& random, int) { return rc::shrinkable::just(rc::Random(random).next()); };
+}
+
+inline constexpr int usual_draws = 10000;
+
+/// Checks property(value, coverage) on `draws` values of `gen`; fails with the simplest counterexample found, or if
+/// fewer draws than required were of a kind. SCOTOPIC_SEED draws others.
+template <typename T, typename Property>
+void for_all(const rc::Gen<T>& gen, Property property, const Shares& required, int draws = usual_draws) {
+  Coverage coverage;
+  rc::detail::TestParams params;
+  const char* seed = std::getenv("SCOTOPIC_SEED");
+  params.seed = seed ? std::strtoull(seed, nullptr, 10) : 8;
+  params.maxSuccess = draws;
+  rc::detail::TestMetadata metadata;
+  metadata.id = testing::UnitTest::GetInstance()->current_test_info()->name();
+  const auto result = rc::detail::checkTestable([&] { property(*gen, coverage); }, metadata, params);
+  if (!result.template is<rc::detail::SuccessResult>()) {
+    std::ostringstream text;
+    rc::detail::printResultMessage(result, text);
+    FAIL() << text.str();
+  }
+  for (const auto& [kind, share] : required)
+    EXPECT_GE(coverage.hits(kind), share * draws) << "too few draws were: " << kind;
+}
+
+/// Each regime but those left out in at least 2 % of the draws; add what else must be covered.
+inline Shares all_regimes(std::vector<Regime> without = {}, Shares more = {}) {
+  for (int i = 0; i < regime_count; ++i)
+    if (std::find(without.begin(), without.end(), static_cast<Regime>(i)) == without.end())
+      more.emplace_back(name(static_cast<Regime>(i)), 0.02);
+  return more;
+}
+
+/// The operator by one way on one pixel.
+inline std::array<float, 3> applied(const AppearanceBatch& batch, const Case& c, std::uint8_t* touched = nullptr) {
+  Rows rows({c.sample});
+  batch.apply(rows.view(c.planes), touched);
+  return rows.rgb(0);
+}
+
+}  // namespace scotopic::test
