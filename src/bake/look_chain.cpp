@@ -9,7 +9,7 @@
 namespace scotopic {
 namespace {
 
-constexpr std::size_t table_length = 1024;
+constexpr std::size_t table_length = 4096;
 constexpr double lowest_share = -24;  // log2 of the smallest share told from 0
 constexpr double black_level = -200;  // log2 that antilog2 makes an exact 0 in float
 constexpr double share_of_next = 4;   // log2: how far below its second entry a table's first, a 0, lies

@@ -32,13 +32,6 @@ OCIO::FileTransformRcPtr file_transform(const std::string& name, OCIO::Interpola
   return file;
 }
 
-/// Where OCIO asks for an inverse: the inverse of what has none, which is an error as soon as it is used.
-OCIO::TransformRcPtr no_inverse() {
-  OCIO::FileTransformRcPtr file = file_transform(forward_only_file, OCIO::INTERP_TETRAHEDRAL);
-  file->setDirection(OCIO::TRANSFORM_DIR_INVERSE);
-  return file;
-}
-
 OCIO::TransformRcPtr transform_of(const LookEntry& look) {
   if (look.matrix) return matrix_transform(*look.matrix);
   return file_transform(look.file, OCIO::INTERP_TETRAHEDRAL);
@@ -54,10 +47,16 @@ void add_space(OCIO::Config& config, const LookEntry& look, const LookPlace& pla
   space->setFamily(looks_family);
   space->setEncoding("scene-linear");
   space->setBitDepth(OCIO::BIT_DEPTH_F32);
-  const std::string text = "Output only: " + place.process_space + " with the look of the same name";
+  const std::string text =
+      place.process_space +
+      " through the look of this name; what is read from it is taken as it is, the look stays in";
   space->setDescription(text.c_str());
   space->setTransform(through, OCIO::COLORSPACE_DIR_FROM_REFERENCE);
-  if (!look.matrix) space->setTransform(no_inverse(), OCIO::COLORSPACE_DIR_TO_REFERENCE);
+  // Read back as what it is: linear light that has been through the look.
+  OCIO::ColorSpaceTransformRcPtr plain = OCIO::ColorSpaceTransform::Create();
+  plain->setSrc(place.process_space.c_str());
+  plain->setDst(place.reference_space.c_str());
+  space->setTransform(plain, OCIO::COLORSPACE_DIR_TO_REFERENCE);
   config.addColorSpace(space);
 }
 
@@ -102,7 +101,7 @@ void add_look(OCIO::Config& config, const LookEntry& entry, const LookPlace& pla
   look->setProcessSpace(place.process_space.c_str());
   look->setDescription(entry.description.c_str());
   look->setTransform(transform_of(entry));
-  if (!entry.matrix) look->setInverseTransform(no_inverse());
+  if (!entry.matrix) look->setInverseTransform(matrix_transform(identity3<double>()));
   config.addLook(look);
   add_space(config, entry, place);
 }

@@ -26,11 +26,9 @@ struct LookPlace {
   std::string reference_space;  ///< a space that is the scene reference itself
 };
 
-/// Beside every look's file: a transform that has no inverse (see add_look).
-inline constexpr const char* forward_only_file = "forward_only.clf";
-
-/// Adds look and colour space. Both are forward only, unless they are a matrix: their inverse is declared to be
-/// that of forward_only_file, which fails, since OCIO's own inverse of a 3D LUT would be wrong without a word.
+/// Adds look and colour space. A look is forward only, unless it is a matrix: its inverse is declared to be
+/// the identity, since OCIO's own inverse of a 3D LUT would be wrong without a word. Pixels read from the
+/// colour space are likewise taken as linear light that has been through the look.
 void add_look(OCIO_NAMESPACE::Config& config, const LookEntry& look, const LookPlace& place);
 
 /// A no-op look of this name: the first one of a config, because some programs apply the first unasked.

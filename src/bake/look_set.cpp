@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "appearance/constants.h"
-#include "bake/beside.h"
 #include "bake/chain_text.h"
+#include "bake/highlights.h"
 #include "bake/ladder.h"
 #include "bake/sha256.h"
 
@@ -21,7 +21,8 @@ LookEntry entry_of(const BakedLook& look) {
   entry.name = look_name(p);
   entry.file = look_file_stem(p) + ".clf";
   entry.description = fmt::format(
-      "Adapted to {} cd/m2, model {}; value 1 stands for {:.4g} cd/m2. Forward only. CIEDE2000 to the "
+      "Adapted to {} cd/m2, model {}; value 1 stands for {:.4g} cd/m2. Forward only: the inverse does "
+      "nothing. CIEDE2000 to the "
       "operator: {}",
       adaptation_text(p.adaptation), name_of(p.model), p.white_luminance, error_text(look.error));
   return entry;
@@ -69,7 +70,6 @@ LookSet bake_set(const std::vector<LookSpec>& specs, const ColourConfig& config,
   for (const LookSpec& spec : specs)
     if (spec.parameters.model == model && !is_identity(spec.parameters))
       set.entries.push_back(chroma_entry(spec.parameters));
-  set.luts.push_back({forward_only_file, xml_text(forward_only_chain(version), ChainFormat::clf)});
   set.luts.push_back({highlight_file, xml_text(highlight_chain(version), ChainFormat::clf)});
   return set;
 }

@@ -1,4 +1,4 @@
-// The small transforms that looks have beside them.
+// The highlight-safe view's curve.
 #pragma once
 
 #include "bake/chain.h"
@@ -8,8 +8,5 @@ namespace scotopic {
 /// Linear RGB, white at 1, to display-linear 0..1: identity up to .5, then 1 - .5 exp(1 - 2x): its value and
 /// slope go on, and 1 is never passed. Relative error below 1e-4.
 Chain highlight_chain(const std::string& version);
-
-/// RGB to its sum, three times: without inverse, for configs that must say so.
-Chain forward_only_chain(const std::string& version);
 
 }  // namespace scotopic

@@ -1,4 +1,4 @@
-#include "bake/beside.h"
+#include "bake/highlights.h"
 
 #include <cmath>
 
@@ -26,17 +26,6 @@ Chain highlight_chain(const std::string& version) {
                             {-lowest * scale, -lowest * scale, -lowest * scale}},
                  std::move(curve)};
   round_as_written(chain);
-  return chain;
-}
-
-Chain forward_only_chain(const std::string& version) {
-  Chain chain;
-  chain.id = "scotopic-forward-only";
-  chain.name = "Forward only";
-  chain.descriptions = {"Stands where a config asks for a look's inverse. The look has none; nor has this"};
-  chain.input = chain.output = "any RGB";
-  chain.info = {{"Application", "scotopic"}, {"Version", version}};
-  chain.steps = {MatrixStep{{{{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}}}, {}}};
   return chain;
 }
 
