@@ -75,7 +75,9 @@ class OiioSink : public PixelSink {
     for (const OutputPicture& picture : pictures_) specs_.push_back(spec_of(source, picture));
     output_ = OIIO::ImageOutput::create(format_);
     if (!output_) fail("OpenImageIO here has no " + format_ + " writer");
-    output_->set_ioproxy(&proxy_);
+    // OpenImageIO appends pages only to what it can open by name.
+    name_ = pictures_.size() > 1 ? file_.open_name() : file_.path();
+    if (pictures_.size() == 1) output_->set_ioproxy(&proxy_);
   }
   ~OiioSink() override {
     if (output_) output_->close();
@@ -110,7 +112,7 @@ class OiioSink : public PixelSink {
  private:
   void open(std::size_t index) {
     const auto mode = opened_ ? OIIO::ImageOutput::AppendSubimage : OIIO::ImageOutput::Create;
-    if (!output_->open(file_.path(), specs_[index], mode)) fail(output_->geterror());
+    if (!output_->open(name_, specs_[index], mode)) fail(output_->geterror());
     opened_ = true;
     current_ = index;
   }
@@ -166,6 +168,7 @@ class OiioSink : public PixelSink {
   }
 
   std::string format_;
+  std::string name_;
   OutputFile& file_;
   Proxy proxy_;
   std::vector<OutputPicture> pictures_;

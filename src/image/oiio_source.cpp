@@ -1,5 +1,8 @@
 #include "image/oiio_source.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <map>
 
@@ -21,6 +24,25 @@ std::optional<double> float_attribute(const OIIO::ImageSpec& spec, const char* n
   return value > 0 ? std::optional<double>(value) : std::nullopt;
 }
 
+/// libpng prints its complaints itself; while this lives, nobody hears them. They come back as return values.
+class StderrHeld {
+ public:
+  StderrHeld() : before_(dup(STDERR_FILENO)), nothing_(open("/dev/null", O_WRONLY | O_CLOEXEC)) {
+    if (before_ >= 0 && nothing_ >= 0) dup2(nothing_, STDERR_FILENO);
+  }
+  ~StderrHeld() {
+    if (before_ >= 0 && nothing_ >= 0) dup2(before_, STDERR_FILENO);
+    if (before_ >= 0) close(before_);
+    if (nothing_ >= 0) close(nothing_);
+  }
+  StderrHeld(const StderrHeld&) = delete;
+  StderrHeld& operator=(const StderrHeld&) = delete;
+
+ private:
+  int before_;
+  int nothing_;
+};
+
 /// Grey images name their channel in many ways; EXR's is Y.
 void name_grey(std::vector<Channel>& channels) {
   const bool alpha = channels.size() == 2 && channels[1].name == "A";
@@ -35,6 +57,7 @@ OiioSource::OiioSource(const std::string& file, const std::string& format, const
   OIIO::ImageSpec hints;
   hints.attribute("oiio:UnassociatedAlpha", 1);  // alpha as the file has it
   OIIO::ImageSpec spec;
+  const StderrHeld held;
   if (!input_->open(file, spec, hints)) fail("is not a valid " + format + " file: " + input_->geterror());
   for (int page = 0; input_->seek_subimage(page, 0); ++page) {
     add_picture(page, input_->spec());
@@ -68,6 +91,7 @@ void OiioSource::read(std::size_t index, int y0, int rows, Band& band) {
   const OIIO::ImageSpec& spec = specs_[index];
   const int page = picture.part;
   band.allocate_interleaved(picture.channels, y0, rows, picture.data.width());
+  const StderrHeld held;
   const bool ok = spec.tile_width
                       ? input_->read_tiles(page, 0, picture.data.x0, picture.data.x1, y0, y0 + rows, spec.z,
                                            spec.z + 1, 0, spec.nchannels, spec.format, band.storage.data())

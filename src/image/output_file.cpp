@@ -144,6 +144,8 @@ void OutputFile::fail(int error) const {
   throw Error(ExitCode::output, path_, std::string("cannot write: ") + std::strerror(error));
 }
 
+std::string OutputFile::open_name() const { return fmt::format("/proc/self/fd/{}", descriptor_); }
+
 void OutputFile::check() const {
   if (error_ != 0) fail(error_);
 }
@@ -201,7 +203,7 @@ std::size_t OutputFile::read(void* data, std::size_t size) noexcept {
 void OutputFile::publish() {
   const SignalsHeld held;
   if (temporary_.empty()) {
-    const std::string open_file = fmt::format("/proc/self/fd/{}", descriptor_);
+    const std::string open_file = open_name();
     // linkat does not replace: where the target exists the file gets a name of its own first.
     if (linkat(AT_FDCWD, open_file.c_str(), AT_FDCWD, target_.c_str(), AT_SYMLINK_FOLLOW) == 0) return;
     int linked = -1;

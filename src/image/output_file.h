@@ -21,6 +21,9 @@ class OutputFile {
 
   const std::string& path() const noexcept { return path_; }
 
+  /// A name under which a library that takes only names can open and write the file, instead of write().
+  std::string open_name() const;
+
   /// All of it, or false; then the reason is kept and every later call fails too.
   bool write(const void* data, std::size_t size) noexcept;
   /// Bytes read back from what was written, at the current position; fewer at the end.

@@ -1,0 +1,142 @@
+#include "image/output_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "image/error.h"
+
+namespace scotopic {
+namespace {
+
+namespace fs = std::filesystem;
+
+class OutputFileTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(::testing::TempDir()) /
+              ("scotopic-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  static std::string read(const std::string& file) {
+    std::ostringstream out;
+    out << std::ifstream(file, std::ios::binary).rdbuf();
+    return out.str();
+  }
+  static void write(const std::string& file, const std::string& text) {
+    std::ofstream(file, std::ios::binary) << text;
+  }
+  int entries() const { return static_cast<int>(std::distance(fs::directory_iterator(folder_), {})); }
+
+  fs::path folder_;
+};
+
+TEST_F(OutputFileTest, nothing_is_there_before_commit_and_all_of_it_after) {
+  OutputFile file(path("new"));
+  file.write("scotopic", 8);
+  EXPECT_FALSE(fs::exists(path("new")));
+  file.commit();
+  EXPECT_EQ(read(path("new")), "scotopic");
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(OutputFileTest, without_commit_the_old_file_stays_and_no_litter) {
+  write(path("old"), "old");
+  {
+    OutputFile file(path("old"));
+    file.write("new", 3);
+  }
+  EXPECT_EQ(read(path("old")), "old");
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(OutputFileTest, replaces_an_old_file_and_keeps_its_mode) {
+  write(path("old"), "old");
+  chmod(path("old").c_str(), 0640);
+  OutputFile file(path("old"));
+  file.write("new", 3);
+  EXPECT_EQ(read(path("old")), "old");
+  file.commit();
+  EXPECT_EQ(read(path("old")), "new");
+  EXPECT_EQ(fs::status(path("old")).permissions(), fs::perms(0640));
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(OutputFileTest, a_link_is_followed_not_replaced) {
+  write(path("target"), "old");
+  fs::create_symlink("target", path("link"));
+  OutputFile file(path("link"));
+  file.write("new", 3);
+  file.commit();
+  EXPECT_TRUE(fs::is_symlink(path("link")));
+  EXPECT_EQ(read(path("target")), "new");
+}
+
+TEST_F(OutputFileTest, writes_overlap_and_come_back_as_a_file_would) {
+  // Positions within, across and beyond the buffer of 1 MiB.
+  const std::string big(3 << 20, 'x');
+  OutputFile file(path("seek"));
+  file.write(big.data(), big.size());
+  file.seek(5);
+  file.write("abc", 3);
+  file.seek((1 << 20) - 1);
+  file.write("de", 2);
+  char back[3] = {};
+  file.seek(5);
+  EXPECT_EQ(file.read(back, 3), 3u);
+  EXPECT_EQ(std::string(back, 3), "abc");
+  file.seek(4 << 20);
+  file.write("end", 3);
+  file.commit();
+  std::string expected = big;
+  expected.replace(5, 3, "abc").replace((1 << 20) - 1, 2, "de");
+  expected.resize(4 << 20, '\0');
+  EXPECT_EQ(read(path("seek")), expected + "end");
+}
+
+TEST_F(OutputFileTest, folders_devices_and_missing_folders_are_refused) {
+  fs::create_directory(path("folder"));
+  for (const std::string& target : {path("folder"), std::string("/dev/null"), path("none/file")}) {
+    try {
+      OutputFile file(target);
+      ADD_FAILURE() << target << " was accepted";
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), ExitCode::output) << target;
+    }
+  }
+}
+
+TEST_F(OutputFileTest, a_full_disk_is_an_error_and_leaves_nothing) {
+  // A limit on file sizes stands for a disk without room: write() fails half-way.
+  struct rlimit before = {};
+  getrlimit(RLIMIT_FSIZE, &before);
+  struct rlimit small = before;
+  small.rlim_cur = 4096;
+  signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &small);
+  ExitCode code = ExitCode::done;
+  try {
+    OutputFile file(path("big"));
+    const std::string big(2 << 20, 'x');
+    file.write(big.data(), big.size());
+    file.commit();
+  } catch (const Error& e) {
+    code = e.code();
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_EQ(code, ExitCode::output);
+  EXPECT_EQ(entries(), 0);
+}
+
+}  // namespace
+}  // namespace scotopic
