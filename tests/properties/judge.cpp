@@ -9,15 +9,21 @@
 
 namespace scotopic::test {
 
+double size_in(const Sample& in, Planes planes) {
+  double size = 0;
+  for (const float x : in.rgb) size = std::max(size, std::abs(static_cast<double>(x)));
+  if (planes != Planes::rgb) size = std::max(size, std::abs(static_cast<double>(in.rod)));
+  if (planes == Planes::all)
+    for (const float cone : in.cones) size = std::max(size, std::abs(static_cast<double>(cone)));
+  return size;
+}
+
 template <typename Real>
 double relative_error(const Vec3<double>& got, const Vec3<Real>& exact, const Sample& in, Planes planes, Way way) {
   using std::abs;
   double size = way == Way::dual ? 0x1p-126 : way == Way::single ? 0x1p-120 : 0, worst = 0;
-  if (planes != Planes::rgb) size = std::max(size, std::abs(static_cast<double>(in.rod)));
-  if (planes == Planes::all)
-    for (const float cone : in.cones) size = std::max(size, std::abs(static_cast<double>(cone)));
-  for (std::size_t i = 0; i < 3; ++i)
-    size = std::max({size, std::abs(static_cast<double>(in.rgb[i])), std::abs(static_cast<double>(exact[i]))});
+  size = std::max(size, size_in(in, planes));
+  for (const Real& x : exact) size = std::max(size, std::abs(static_cast<double>(x)));
   for (std::size_t i = 0; i < 3; ++i) {
     const double error = static_cast<double>(abs(Real(Real(got[i]) - exact[i])));
     worst = std::isfinite(error) ? std::max(worst, error) : INFINITY;

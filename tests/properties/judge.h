@@ -19,6 +19,9 @@ inline constexpr std::array<const char*, 3> way_names = {"reference", "single", 
 template <typename Real>
 double relative_error(const Vec3<double>& got, const Vec3<Real>& exact, const Sample& in, Planes planes, Way way);
 
+/// The largest component that came in, the receptor signals given among them.
+double size_in(const Sample& sample, Planes planes);
+
 /// What a pixel asks of the arithmetic.
 struct Strain {
   /// Condition of the kernel's root: how many times larger than in q and r a relative error is in

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "appearance/stages.h"
+#include "properties/judge.h"
 #include "properties/property.h"
 #include "support/primaries.h"
 
@@ -427,9 +428,7 @@ TEST(OperatorProperties, float_and_double_agree) {
         const auto a = applied(AppearanceBatch(c.parameters), c);
         const auto b = applied(AppearanceBatch(c.parameters, Precision::dual), c);
         coverage(name(c.regime));
-        double size = std::max({largest(c.sample.rgb), largest(b), 0x1p-120});
-        if (c.planes != Planes::rgb) size = std::max(size, std::abs(static_cast<double>(c.sample.rod)));
-        if (c.planes == Planes::all) size = std::max(size, largest(c.sample.cones));
+        const double size = std::max({size_in(c.sample, c.planes), largest(b), 0x1p-120});
         for (std::size_t i = 0; i < 3; ++i)
           RC_ASSERT(std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i])) <= 5e-6 * size);
       },
