@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "acuity/cutoff.h"
+#include "acuity/local.h"
 #include "cli/values.h"
 
 namespace scotopic {
@@ -15,6 +16,9 @@ const std::vector<std::pair<std::string, AcuitySpace>> spaces = {{"light", Acuit
                                                                  {"lab", AcuitySpace::lab}};
 const std::vector<std::pair<std::string, AcuityQuality>> qualities = {
     {"draft", AcuityQuality::draft}, {"normal", AcuityQuality::normal}, {"fine", AcuityQuality::fine}};
+
+const std::vector<std::pair<std::string, std::string>> modes = {
+    {"global", "global"}, {"local", "local"}, {"off", "off"}};
 
 int display_width(const PixelSource& source, const ImageLayout& layout) {
   return source.pictures()[layout.light.front().index].display.width();
@@ -40,7 +44,9 @@ void add_acuity_options(CLI::App& verb, AcuityOptions& o) {
   const auto add = [&](const char* name, std::string& value, const std::string& text, const char* kind) {
     verb.add_option(name, value, text)->type_name(kind)->group(group);
   };
-  verb.add_flag("--acuity", o.acuity, "Take away the detail that the dark-adapted eye does not resolve")
+  verb.add_flag("--acuity{global}", o.acuity,
+                "Take away the detail that the dark-adapted eye does not resolve; --acuity=local: less "
+                "around lamps")
       ->group(group);
   add("--ppd", o.pixels_per_degree, "Pixels per degree of the viewer's field", "X");
   add("--fov", o.field_of_view, "Degrees that the picture's width fills of it, instead of --ppd", "DEG");
@@ -52,7 +58,9 @@ void add_acuity_options(CLI::App& verb, AcuityOptions& o) {
 
 AcuityChoice understand(const AcuityOptions& o) {
   AcuityChoice out;
-  out.asked = o.acuity;
+  const std::string mode = choice("--acuity", o.acuity, modes);
+  out.asked = mode != "off";
+  out.local = mode == "local";
   if (!o.pixels_per_degree.empty()) {
     if (!o.field_of_view.empty()) fail_value("--fov", o.field_of_view, "either --ppd or --fov, not both");
     out.pixels_per_degree =
@@ -78,25 +86,27 @@ AngularResolution angular_resolution(const AcuityChoice& choice, const PixelSour
   return {60.0, false, "assumed: a pixel is one arc minute; --ppd or --fov tells"};
 }
 
-std::optional<AcuityFilter> acuity_filter(const AcuityChoice& choice, const AppearanceParameters& scene,
-                                          const AngularResolution& resolution, const Console& console) {
+std::unique_ptr<SpatialFilter> acuity_filter(const AcuityChoice& choice, const AppearanceParameters& scene,
+                                             const AngularResolution& resolution, const Console& console) {
   AcuityParameters p = choice.parameters;
   p.strength *= scene.strength.all;
-  if (!choice.asked || p.strength == 0) return std::nullopt;
+  if (!choice.asked || p.strength == 0) return nullptr;
   const double ppd = resolution.pixels_per_degree, cutoff = acuity_cutoff(scene.adaptation);
   const std::string known = fmt::format("{:.3g} pixels per degree ({})", ppd, resolution.source);
   if (acuity_is_not_limiting(scene.adaptation, ppd)) {
     console.note(
         fmt::format("acuity: skipped, the eye resolves {:.3g} cycles/degree, the picture holds {:.3g}; {}",
                     cutoff, ppd / 2, known));
-    return std::nullopt;
+    return nullptr;
   }
   p.sigma = acuity_sigma_pixels(scene.adaptation, ppd);
   p.white = scene.adaptation / 0.18 / scene.white_luminance;
   p.xyz_from_rgb = scene.xyz_from_rgb;
-  console.note(fmt::format("acuity: {:.3g} cycles/degree are resolved, sigma {:.3g} pixels; {}", cutoff,
-                           p.sigma, known));
-  return AcuityFilter(p);
+  console.note(fmt::format("acuity: {:.3g} cycles/degree are resolved, sigma {}{:.3g} pixels; {}", cutoff,
+                           choice.local ? "up to " : "", p.sigma, known));
+  if (!choice.local) return std::make_unique<AcuityFilter>(p);
+  return std::make_unique<LocalAcuityFilter>(
+      LocalAcuityParameters{p, scene.adaptation, scene.white_luminance, ppd});
 }
 
 }  // namespace scotopic

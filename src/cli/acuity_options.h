@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -14,7 +15,7 @@ namespace scotopic {
 
 /// As typed.
 struct AcuityOptions {
-  bool acuity = false;
+  std::string acuity = "off";
   std::string strength = "1";
   std::string space = "light";
   std::string quality = "normal";
@@ -26,6 +27,7 @@ struct AcuityOptions {
 /// As understood.
 struct AcuityChoice {
   bool asked = false;
+  bool local = false;           ///< sigma follows each pixel's own surroundings
   AcuityParameters parameters;  ///< sigma, white and primaries are not set yet
   std::optional<double> pixels_per_degree;
   std::optional<double> field_of_view;  ///< degrees, of the width of the display window
@@ -48,8 +50,8 @@ AcuityChoice understand(const AcuityOptions& options);
 AngularResolution angular_resolution(const AcuityChoice& choice, const PixelSource& source,
                                      const ImageLayout& layout);
 
-/// The filter of a scene; nullopt where all that the pixels can hold is resolved, or strength is 0.
-std::optional<AcuityFilter> acuity_filter(const AcuityChoice& choice, const AppearanceParameters& scene,
-                                          const AngularResolution& resolution, const Console& console);
+/// The filter of a scene; nullptr where all that the pixels can hold is resolved, or strength is 0.
+std::unique_ptr<SpatialFilter> acuity_filter(const AcuityChoice& choice, const AppearanceParameters& scene,
+                                             const AngularResolution& resolution, const Console& console);
 
 }  // namespace scotopic

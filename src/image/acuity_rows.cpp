@@ -7,7 +7,7 @@
 
 namespace scotopic {
 
-AcuityRows::AcuityRows(const AcuityFilter& filter, const Window& data, bool descending, bool alpha)
+AcuityRows::AcuityRows(const SpatialFilter& filter, const Window& data, bool descending, bool alpha)
     : filter_(filter), data_(data), descending_(descending), alpha_(alpha) {}
 
 const Band* AcuityRows::add(Band&& band) {

@@ -24,7 +24,7 @@ struct WaitingBand {
 /// the halo: memory does not grow with the height.
 class AcuityRows {
  public:
-  AcuityRows(const AcuityFilter& filter, const Window& data, bool descending, bool alpha);
+  AcuityRows(const SpatialFilter& filter, const Window& data, bool descending, bool alpha);
 
   /// Makes room for the next band, and says where it lies until next() takes it.
   const Band* add(Band&& band);
@@ -46,7 +46,7 @@ class AcuityRows {
   void filter_band();
   void mark_changes();
 
-  const AcuityFilter& filter_;
+  const SpatialFilter& filter_;
   Window data_;
   bool descending_;
   bool alpha_;
