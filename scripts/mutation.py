@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+"""Mutation check: does the short test suite notice each fault of scripts/mutants.txt?
+
+Copies the last commit, applies one fault after the other, builds, and runs the tests of kernel, adaptation and appearance
+and the properties, stopping at the first that fails. Prints the score and the survivors; exits 1 below 95 %.
+
+  scripts/mutation.py [--work DIR] [--jobs N] [--only TEXT] [--check]
+
+  --only TEXT  only faults whose line holds TEXT      --check  only look whether every fault still applies
+"""
+import argparse
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+TESTS = ["kernel", "adaptation", "appearance", "properties"]
+THRESHOLD = 0.95
+
+
+def read_mutants():
+    mutants = []
+    for line in (ROOT / "scripts/mutants.txt").read_text().splitlines():
+        if not line.strip() or line.startswith("#"):
+            continue
+        path, rest = line.split(": ", 1)
+        old, _, new = rest.partition(" ==>")
+        mutants.append((path, old.strip(), new.strip(), line))
+    return mutants
+
+
+def copy_tree(to):
+    """The last commit, whole: what others are in the middle of is not judged."""
+    to.mkdir(parents=True, exist_ok=True)
+    archive = subprocess.run(["git", "archive", "HEAD"], cwd=ROOT, check=True, capture_output=True).stdout
+    subprocess.run(["tar", "x", "-C", to], input=archive, check=True)
+
+
+def run(command, **options):
+    return subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, **options).returncode
+
+
+class Suite:
+    def __init__(self, tree, build, jobs):
+        self.build, self.jobs = build, jobs
+        launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
+        # One SIMD target: that targets agree is tested elsewhere, and each costs time to compile.
+        subprocess.run(["cmake", "-S", tree, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                        "-DCMAKE_CXX_FLAGS_RELEASE=-O1", "-DCMAKE_CXX_FLAGS=-DHWY_COMPILE_ONLY_STATIC", *launcher],
+                       check=True, stdout=subprocess.DEVNULL)
+
+    def killer(self):
+        """Name of the first test program that fails; None if all pass; "build" if one does not compile."""
+        for test in TESTS:
+            if run(["ninja", "-C", self.build, f"-j{self.jobs}", f"test_{test}"]):
+                return "build"
+            program = self.build / "tests" / test / f"test_{test}"
+            try:
+                failed = run([program, "--gtest_fail_fast"], timeout=300)
+            except subprocess.TimeoutExpired:
+                failed = True
+            if failed:
+                return test
+        return None
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options.add_argument("--work", type=pathlib.Path)
+    options.add_argument("--jobs", type=int, default=os.cpu_count())
+    options.add_argument("--only", default="")
+    options.add_argument("--check", action="store_true")
+    options = options.parse_args()
+    mutants = [m for m in read_mutants() if options.only in m[3]]
+    stale = [m for m in mutants if (ROOT / m[0]).read_text().count(m[1]) != 1]
+    for mutant in stale:
+        print("does not apply:", mutant[3])
+    if options.check or stale:
+        return 1 if stale else 0
+
+    work = options.work or pathlib.Path(tempfile.mkdtemp(prefix="mutation."))
+    tree, build = work / "tree", work / "build"
+    copy_tree(tree)
+    suite = Suite(tree, build, options.jobs)
+    killer = suite.killer()
+    if killer:
+        print("the suite fails without a fault:", killer)
+        return 1
+    killed, survivors, invalid = {test: 0 for test in TESTS}, [], []
+    for number, (path, old, new, line) in enumerate(mutants, 1):
+        file = tree / path
+        text = file.read_text()
+        file.write_text(text.replace(old, new))
+        started = time.time()
+        killer = suite.killer()
+        file.write_text(text)
+        print(f"{number}/{len(mutants)} {killer or 'SURVIVED'} ({time.time() - started:.0f} s): {line}", flush=True)
+        if killer == "build":
+            invalid.append(line)
+        elif killer:
+            killed[killer] += 1
+        else:
+            survivors.append(line)
+    valid = len(mutants) - len(invalid)
+    score = sum(killed.values()) / max(1, valid)
+    print(f"killed {sum(killed.values())} of {valid} ({100 * score:.1f} %):",
+          ", ".join(f"{test} {count}" for test, count in killed.items()))
+    for title, lines in (("survived", survivors), ("did not compile", invalid)):
+        for line in lines:
+            print(f"{title}: {line}")
+    if not options.work:
+        shutil.rmtree(work)
+    return 0 if score >= THRESHOLD and not invalid else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
