@@ -6,10 +6,11 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
+#include <memory>
+#include <vector>
 
 #include "acuity/engines.h"
+#include "acuity/moments-inl.h"
 #include "acuity/simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -25,10 +26,6 @@ struct CellPixel {
   Quad rgb_y;
 };
 
-struct Cluster {
-  float values[cluster_fields];
-};
-
 /// Pixels [begin, end) of a cell, with their moments.
 struct Part {
   int begin, end;
@@ -38,11 +35,8 @@ struct Part {
   int widest_channel;
 };
 
-/// In units of the range kernel's variance, scaled: beyond these a cluster's spread counts no more, for which
-/// to divide first and for how wide it looks. Pixels too far apart for one cluster must not look like a
-/// little of everything between them. Both measured to be near the best on HDR images.
-constexpr float range_variance = static_cast<float>(0.5 / weight_end);
-constexpr float urgent_variance = 10.0f * range_variance, widest_variance = 4.0f * range_variance;
+/// In units of the range kernel's variance, scaled: a wider part is no more urgent to divide.
+constexpr float urgent_variance = static_cast<float>(10.0 * 0.5 / weight_end);
 
 HWY_INLINE Part measured(const Constants& c, const CellPixel* pixels, int begin, int end) {
   Part part{begin, end, pixels[begin].lab_x, pixels[begin].rgb_y, Quad{}, 0.0f, 0};
@@ -69,47 +63,10 @@ HWY_INLINE Part measured(const Constants& c, const CellPixel* pixels, int begin,
   return part;
 }
 
-/// d RGB / d scaled CIELAB at a colour, a column for each of L, a, b.
-HWY_INLINE void light_slopes(const Constants& c, Quad lab, Quad (&slopes)[3]) {
-  const float unscale = 1.0f / c.lab_scale;
-  const float fy = (lab[0] * unscale + 16.0f) / 116.0f;
-  const float f[3] = {fy + lab[1] * unscale / 500.0f, fy, fy - lab[2] * unscale / 200.0f};
-  Quad columns[3];
-  for (int k = 0; k < 3; ++k) {
-    const float slope = unscale * (f[k] > 6.0f / 29.0f ? 3.0f * f[k] * f[k] : 108.0f / 841.0f);
-    columns[k] = slope * Quad{c.rgb_from_f3[0][k], c.rgb_from_f3[1][k], c.rgb_from_f3[2][k], 0.0f};
-  }
-  slopes[0] = (columns[0] + columns[1] + columns[2]) / 116.0f;
-  slopes[1] = columns[0] / 500.0f;
-  slopes[2] = columns[2] / -200.0f;
-}
-
-HWY_INLINE void store_cluster(const Constants& c, const Part& part, Cluster& out) {
-  constexpr float ends = static_cast<float>(2.0 * weight_end);
-  Quad variance = part.variance;
-  for (int k = 0; k < 3; ++k) variance[k] = std::min(variance[k], widest_variance);
-  const Quad gain = 1.0f / (1.0f + ends * variance);
-  const Quad root{std::sqrt(gain[0]), std::sqrt(gain[1]), std::sqrt(gain[2]), 1.0f};
-  const Quad lab = part.lab_x * root;
-  Quad slopes[3];
-  light_slopes(c, part.lab_x, slopes);
-  out.values[cluster_x] = part.lab_x[3];
-  out.values[cluster_y] = part.rgb_y[3];
-  out.values[cluster_weight] = static_cast<float>(part.end - part.begin) * (root[0] * root[1] * root[2]);
-  for (int k = 0; k < 3; ++k) {
-    out.values[cluster_root + k] = root[k];
-    out.values[cluster_lab + k] = lab[k];
-    out.values[cluster_light + k] = part.rgb_y[k];
-    for (int j = 0; j < 3; ++j)
-      out.values[cluster_slope + 3 * k + j] = slopes[j][k] * (ends * variance[j] * root[j]);
-  }
-}
-
 constexpr int clusters_at_most = 32;
 
 /// Divides the part that most needs it at its mean until all are narrow, and appends the clusters.
-HWY_INLINE void append_clusters(const Constants& c, CellPixel* pixels, int count,
-                                std::vector<Cluster>& clusters) {
+HWY_INLINE void append_clusters(const Constants& c, CellPixel* pixels, int count, Moments& moments) {
   Part parts[clusters_at_most];
   int used = 1, next = 0;
   parts[0] = measured(c, pixels, 0, count);
@@ -132,112 +89,113 @@ HWY_INLINE void append_clusters(const Constants& c, CellPixel* pixels, int count
     for (int i = 1; i < used; ++i)
       if (parts[i].urgency > parts[next].urgency) next = i;
   }
-  const std::size_t at = clusters.size();
-  clusters.resize(at + static_cast<std::size_t>(used));
-  for (int i = 0; i < used; ++i) store_cluster(c, parts[i], clusters[at + static_cast<std::size_t>(i)]);
+  for (int i = 0; i < used; ++i) {
+    const Part& part = parts[i];
+    const Quad &lab = part.lab_x, &rgb = part.rgb_y, &v = part.variance;
+    moments.add({lab[3], rgb[3], static_cast<float>(part.end - part.begin), lab[0], lab[1], lab[2], rgb[0],
+                 rgb[1], rgb[2], v[0], v[1], v[2]});
+  }
 }
 
-/// Scaled CIELAB of `count` pixels of a row.
-void lab_of_row(const Constants& c, const float* r, const float* g, const float* b, int count,
-                float* lab[3]) {
-  const hn::ScalableTag<float> d;
+/// One row of cells being built.
+class RowBuilder {
+ public:
+  RowBuilder(const Constants& c, const AcuityWindow& window, int row);
+  void build(CellRow& out);
+
+ private:
+  float* plane(int channel, int y) {
+    return planes_.get() + (static_cast<std::ptrdiff_t>(y) * 3 + channel) * window_.width;
+  }
+  const float* light(const float* of, int y) const {
+    return of + (first_y_ + y - window_.y) * window_.stride;
+  }
+  int add_pairs(int cell, CellRow& out);
+  void add_cell(int cell);
+
+  const Constants& c_;
+  const AcuityWindow& window_;
+  int first_y_, rows_, first_cell_, last_cell_;
+  std::unique_ptr<float[]> planes_;  // scaled CIELAB, row by row
+  std::vector<CellPixel> pixels_;
+  Moments moments_;
+};
+
+RowBuilder::RowBuilder(const Constants& c, const AcuityWindow& window, int row)
+    : c_(c),
+      window_(window),
+      first_y_(std::max(row * c.cell, window.y)),
+      rows_(std::min((row + 1) * c.cell, window.y + window.height) - first_y_),
+      first_cell_(window.x / c.cell),
+      last_cell_((window.x + window.width - 1) / c.cell),
+      planes_(std::make_unique_for_overwrite<float[]>(3 * static_cast<std::size_t>(window.width) *
+                                                      static_cast<std::size_t>(rows_))),
+      pixels_(static_cast<std::size_t>(c.cell * c.cell)),
+      moments_((last_cell_ - first_cell_ + 1) * std::min(c.most_clusters, c.cell * c.cell)) {
+  for (int y = 0; y < rows_; ++y) {
+    float* lab[3] = {plane(0, y), plane(1, y), plane(2, y)};
+    lab_of_row(c, light(window.r, y), light(window.g, y), light(window.b, y), window.width, lab);
+  }
+}
+
+void RowBuilder::build(CellRow& out) {
+  out.first.clear();
+  for (int cell = first_cell_; cell <= last_cell_;) {
+    const int done = add_pairs(cell, out);
+    cell += done;
+    if (done > 0) continue;
+    out.first.push_back(static_cast<std::uint32_t>(moments_.count()));
+    add_cell(cell++);
+  }
+  out.first.push_back(static_cast<std::uint32_t>(moments_.count()));
+  moments_.finish(c_, out);
+}
+
+/// Cells of 2x2 pixels, as many as there are lanes at once: most need no division. Returns how many were
+/// added. The same sums in the same order as for any other cell: which way a cell goes does not show.
+int RowBuilder::add_pairs(int cell, CellRow& out) {
+  const Lanes d;
   const int lanes = static_cast<int>(hn::Lanes(d));
-  const auto convert = [&](const float* pr, const float* pg, const float* pb, float* l, float* a,
-                           float* bb) HWY_ATTR {
-    const auto out =
-        scaled_lab(d, c, Three<hn::Vec<decltype(d)>>{hn::LoadU(d, pr), hn::LoadU(d, pg), hn::LoadU(d, pb)});
-    hn::StoreU(out.x, d, l);
-    hn::StoreU(out.y, d, a);
-    hn::StoreU(out.z, d, bb);
-  };
-  int i = 0;
-  for (; i + lanes <= count; i += lanes) convert(r + i, g + i, b + i, lab[0] + i, lab[1] + i, lab[2] + i);
-  if (i >= count) return;
-  HWY_ALIGN float rest[6][HWY_MAX_BYTES / sizeof(float)] = {};
-  for (int j = 0; j < count - i; ++j) {
-    rest[0][j] = r[i + j];
-    rest[1][j] = g[i + j];
-    rest[2][j] = b[i + j];
+  const int x = 2 * cell - window_.x;
+  if (c_.cell != 2 || rows_ != 2 || x < 0 || x + 2 * lanes > window_.width) return 0;
+  Squares squares;
+  const float* const planes[2][6] = {
+      {plane(0, 0), plane(1, 0), plane(2, 0), light(window_.r, 0), light(window_.g, 0), light(window_.b, 0)},
+      {plane(0, 1), plane(1, 1), plane(2, 1), light(window_.r, 1), light(window_.g, 1), light(window_.b, 1)}};
+  const bool all_narrow = squares.measure(c_, planes, x, 2 * cell, first_y_);
+  for (int i = 0; i < lanes; ++i) {
+    out.first.push_back(static_cast<std::uint32_t>(moments_.count() + (all_narrow ? i : 0)));
+    if (all_narrow) continue;
+    if (squares.narrow[i])
+      moments_.add(squares.moments(i));
+    else
+      add_cell(cell + i);
   }
-  convert(rest[0], rest[1], rest[2], rest[3], rest[4], rest[5]);
-  for (int j = 0; j < count - i; ++j)
-    for (int k = 0; k < 3; ++k) lab[k][i + j] = rest[3 + k][j];
+  if (all_narrow) moments_.add_all(squares);
+  return lanes;
 }
 
-void field_by_field(const std::vector<Cluster>& clusters, CellRow& out) {
-  out.stride = static_cast<std::ptrdiff_t>(clusters.size() + 16);
-  out.values.resize(static_cast<std::size_t>(out.stride) * cluster_fields);
-  float* to = out.values.data();
-  for (const Cluster& cluster : clusters) {
-    for (int f = 0; f < cluster_fields; ++f) to[f * out.stride] = cluster.values[f];
-    ++to;
+void RowBuilder::add_cell(int cell) {
+  const int x0 = std::max(cell * c_.cell, window_.x) - window_.x;
+  const int x1 = std::min((cell + 1) * c_.cell, window_.x + window_.width) - window_.x;
+  int count = 0;
+  for (int y = 0; y < rows_; ++y) {
+    const float *l = plane(0, y), *a = plane(1, y), *b = plane(2, y);
+    const float *red = light(window_.r, y), *green = light(window_.g, y), *blue = light(window_.b, y);
+    for (int x = x0; x < x1; ++x) {
+      if (l[x] == absent) continue;
+      CellPixel& pixel = pixels_[static_cast<std::size_t>(count++)];
+      pixel.lab_x = Quad{l[x], a[x], b[x], static_cast<float>(x + window_.x)};
+      pixel.rgb_y = Quad{red[x], green[x], blue[x], static_cast<float>(first_y_ + y)};
+    }
   }
+  if (count > 0) append_clusters(c_, pixels_.data(), count, moments_);
 }
 
 }  // namespace
 
 void BuildCellRow(const Constants& c, const AcuityWindow& window, int row, CellRow& out) {
-  const int first_y = std::max(row * c.cell, window.y);
-  const int last_y = std::min((row + 1) * c.cell, window.y + window.height);
-  const int rows = last_y - first_y;
-  const auto width = static_cast<std::size_t>(window.width);
-  std::vector<float> planes(3 * width * static_cast<std::size_t>(rows));
-  const auto plane = [&](int k, int y) {
-    return planes.data() + (static_cast<std::size_t>(y * 3 + k)) * width;
-  };
-  for (int y = 0; y < rows; ++y) {
-    const std::ptrdiff_t offset = (first_y + y - window.y) * window.stride;
-    float* lab[3] = {plane(0, y), plane(1, y), plane(2, y)};
-    lab_of_row(c, window.r + offset, window.g + offset, window.b + offset, window.width, lab);
-  }
-  const int first_cell = window.x / c.cell;
-  const int last_cell = (window.x + window.width - 1) / c.cell;
-  std::vector<CellPixel> pixels(static_cast<std::size_t>(c.cell * c.cell));
-  std::vector<Cluster> clusters;
-  clusters.reserve(2 * static_cast<std::size_t>(last_cell - first_cell + 1));
-  out.first.clear();
-  for (int cell = first_cell; cell <= last_cell; ++cell) {
-    out.first.push_back(static_cast<std::uint32_t>(clusters.size()));
-    const int x0 = std::max(cell * c.cell, window.x),
-              x1 = std::min((cell + 1) * c.cell, window.x + window.width);
-    int count = 0;
-    for (int y = 0; y < rows; ++y) {
-      const std::ptrdiff_t offset = (first_y + y - window.y) * window.stride - window.x;
-      const float *l = plane(0, y) - window.x, *a = plane(1, y) - window.x, *b = plane(2, y) - window.x;
-      for (int x = x0; x < x1; ++x) {
-        if (l[x] == absent) continue;
-        CellPixel& pixel = pixels[static_cast<std::size_t>(count++)];
-        pixel.lab_x = Quad{l[x], a[x], b[x], static_cast<float>(x)};
-        pixel.rgb_y = Quad{window.r[offset + x], window.g[offset + x], window.b[offset + x],
-                           static_cast<float>(first_y + y)};
-      }
-    }
-    if (count > 0) append_clusters(c, pixels.data(), count, clusters);
-  }
-  out.first.push_back(static_cast<std::uint32_t>(clusters.size()));
-  field_by_field(clusters, out);
-}
-
-void BuildLabRow(const Constants& c, const AcuityWindow& window, int y, LabRows& out, int i) {
-  float* row = out.row(i);
-  const bool exists = y >= window.y && y < window.y + window.height;
-  const std::ptrdiff_t margin = out.margin, right = margin + window.width;
-  for (int k = 0; k < 6; ++k) {
-    float* plane = row + k * out.stride;
-    const float outside = k == 0 ? absent : 0.0f;
-    std::fill(plane, plane + (exists ? margin : out.stride), outside);
-    if (exists) std::fill(plane + right, plane + out.stride, outside);
-  }
-  if (!exists) return;
-  const std::ptrdiff_t offset = (y - window.y) * window.stride;
-  row += margin;
-  float* lab[3] = {row, row + out.stride, row + 2 * out.stride};
-  const float* planes[3] = {window.r + offset, window.g + offset, window.b + offset};
-  lab_of_row(c, planes[0], planes[1], planes[2], window.width, lab);
-  for (int k = 0; k < 3; ++k) {
-    float* light = row + (3 + k) * out.stride;
-    for (int x = 0; x < window.width; ++x) light[x] = row[x] == absent ? 0.0f : planes[k][x];
-  }
+  RowBuilder(c, window, row).build(out);
 }
 
 }  // namespace scotopic::acuity::HWY_NAMESPACE
@@ -246,14 +204,9 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace scotopic::acuity {
 HWY_EXPORT(BuildCellRow);
-HWY_EXPORT(BuildLabRow);
 
 void build_cell_row(const Constants& constants, const AcuityWindow& window, int row, CellRow& out) {
   HWY_DYNAMIC_DISPATCH(BuildCellRow)(constants, window, row, out);
-}
-
-void build_lab_row(const Constants& constants, const AcuityWindow& window, int y, LabRows& out, int i) {
-  HWY_DYNAMIC_DISPATCH(BuildLabRow)(constants, window, y, out, i);
 }
 }  // namespace scotopic::acuity
 #endif

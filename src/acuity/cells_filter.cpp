@@ -51,7 +51,7 @@ HWY_INLINE void ClusterList::append(const Constants& c, const CellRow& row, std:
   const V twice = hn::Set(d, 2.0f * c.space_scale), scale = hn::Set(d, c.space_scale);
   const V middle_x = hn::Set(d, x), middle_y = hn::Set(d, y);
   for (std::uint32_t i = begin; i < end; i += lanes) {
-    const float* from = row.values.data() + i;
+    const float* from = row.values.get() + i;
     float* to = values_.get() + count_;
     const V dx = hn::Sub(hn::LoadU(d, from + cluster_x * row.stride), middle_x);
     const V dy = hn::Sub(hn::LoadU(d, from + cluster_y * row.stride), middle_y);

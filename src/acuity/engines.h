@@ -58,7 +58,7 @@ inline constexpr int list_capacity = 16384;
 /// values[f * stride + i]; 16 floats beyond a field's end may be read.
 struct CellRow {
   std::ptrdiff_t stride = 0;
-  std::vector<float> values;
+  std::unique_ptr<float[]> values;
   std::vector<std::uint32_t> first;  ///< cell i of the row holds clusters first[i] ... first[i+1] - 1
 };
 

@@ -79,6 +79,33 @@ HWY_INLINE Three<V> scaled_lab(D d, const Constants& c, Three<V> rgb) {
           hn::IfThenElseZero(present, b)};
 }
 
+/// Scaled CIELAB of `count` pixels of a row.
+HWY_INLINE void lab_of_row(const Constants& c, const float* r, const float* g, const float* b, int count,
+                           float* lab[3]) {
+  const hn::ScalableTag<float> d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const auto convert = [&](const float* pr, const float* pg, const float* pb, float* l, float* a,
+                           float* bb) HWY_ATTR {
+    const auto out =
+        scaled_lab(d, c, Three<hn::Vec<decltype(d)>>{hn::LoadU(d, pr), hn::LoadU(d, pg), hn::LoadU(d, pb)});
+    hn::StoreU(out.x, d, l);
+    hn::StoreU(out.y, d, a);
+    hn::StoreU(out.z, d, bb);
+  };
+  int i = 0;
+  for (; i + lanes <= count; i += lanes) convert(r + i, g + i, b + i, lab[0] + i, lab[1] + i, lab[2] + i);
+  if (i >= count) return;
+  HWY_ALIGN float rest[6][HWY_MAX_BYTES / sizeof(float)] = {};
+  for (int j = 0; j < count - i; ++j) {
+    rest[0][j] = r[i + j];
+    rest[1][j] = g[i + j];
+    rest[2][j] = b[i + j];
+  }
+  convert(rest[0], rest[1], rest[2], rest[3], rest[4], rest[5]);
+  for (int j = 0; j < count - i; ++j)
+    for (int k = 0; k < 3; ++k) lab[k][i + j] = rest[3 + k][j];
+}
+
 /// RGB of scaled CIELAB `to` less that of `from`: exactly 0 where they are equal.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Three<V> rgb_difference(D d, const Constants& c, Three<V> from, Three<V> to) {

@@ -117,6 +117,28 @@ void filter_rows(const Constants& c, const AcuityWindow& window, const AcuityTil
 
 }  // namespace
 
+void BuildLabRow(const Constants& c, const AcuityWindow& window, int y, LabRows& out, int i) {
+  float* row = out.row(i);
+  const bool exists = y >= window.y && y < window.y + window.height;
+  const std::ptrdiff_t margin = out.margin, right = margin + window.width;
+  for (int k = 0; k < 6; ++k) {
+    float* plane = row + k * out.stride;
+    const float outside = k == 0 ? absent : 0.0f;
+    std::fill(plane, plane + (exists ? margin : out.stride), outside);
+    if (exists) std::fill(plane + right, plane + out.stride, outside);
+  }
+  if (!exists) return;
+  const std::ptrdiff_t offset = (y - window.y) * window.stride;
+  row += margin;
+  float* lab[3] = {row, row + out.stride, row + 2 * out.stride};
+  const float* planes[3] = {window.r + offset, window.g + offset, window.b + offset};
+  lab_of_row(c, planes[0], planes[1], planes[2], window.width, lab);
+  for (int k = 0; k < 3; ++k) {
+    float* light = row + (3 + k) * out.stride;
+    for (int x = 0; x < window.width; ++x) light[x] = row[x] == absent ? 0.0f : planes[k][x];
+  }
+}
+
 void FilterFromWindow(const Constants& c, const AcuityWindow& window, const AcuityTile& tile, int y,
                       int height, const LabRows& rows, int i) {
   if (c.space == AcuitySpace::lab)
@@ -130,7 +152,12 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace scotopic::acuity {
+HWY_EXPORT(BuildLabRow);
 HWY_EXPORT(FilterFromWindow);
+
+void build_lab_row(const Constants& constants, const AcuityWindow& window, int y, LabRows& out, int i) {
+  HWY_DYNAMIC_DISPATCH(BuildLabRow)(constants, window, y, out, i);
+}
 
 void filter_from_window(const Constants& constants, const AcuityWindow& window, const AcuityTile& tile, int y,
                         int height, const LabRows& rows, int i) {
