@@ -15,11 +15,15 @@ double mesopic_over_photopic(double m, double sp_ratio) {
 
 }  // namespace
 
+double mesopic_luminance(double photopic, double scotopic, double m) noexcept {
+  return (m * photopic + (1 - m) * scotopic * c) / (m + (1 - m) * c);
+}
+
 MesopicState mesopic_state(double photopic, double scotopic) noexcept {
   double m = 0.5;
   double luminance = 0;
   for (int i = 0; i < 500; ++i) {
-    luminance = (m * photopic + (1 - m) * scotopic * c) / (m + (1 - m) * c);
+    luminance = mesopic_luminance(photopic, scotopic, m);
     // log10(0) = -inf is clamped like any other dark luminance.
     const double next = std::clamp(mes2_offset + mes2_slope * std::log10(luminance), 0.0, 1.0);
     if (std::abs(next - m) < 1e-16) break;

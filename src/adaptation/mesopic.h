@@ -31,4 +31,7 @@ double mesopic_scotopic_limit(double sp_ratio = sp_ratio_d65) noexcept;
 /// than any lamp's, MES2 has two fixed points at once; this is the lower one.)
 double mesopic_coefficient(double photopic, double sp_ratio = sp_ratio_d65) noexcept;
 
+/// Lmes, cd/m2, of a light under the adaptation coefficient `m`: (m Lp + (1-m) Ls C)/(m + (1-m) C).
+double mesopic_luminance(double photopic, double scotopic, double m) noexcept;
+
 }  // namespace scotopic

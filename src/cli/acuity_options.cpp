@@ -90,15 +90,8 @@ std::unique_ptr<SpatialFilter> acuity_filter(const AcuityChoice& choice, const A
                                              const AngularResolution& resolution, const Console& console) {
   AcuityParameters p = choice.parameters;
   p.strength *= scene.strength.all;
-  if (!choice.asked || p.strength == 0) return nullptr;
   const double ppd = resolution.pixels_per_degree, cutoff = acuity_cutoff(scene.adaptation);
   const std::string known = fmt::format("{:.3g} pixels per degree ({})", ppd, resolution.source);
-  if (acuity_is_not_limiting(scene.adaptation, ppd)) {
-    console.note(
-        fmt::format("acuity: skipped, the eye resolves {:.3g} cycles/degree, the picture holds {:.3g}; {}",
-                    cutoff, ppd / 2, known));
-    return nullptr;
-  }
   p.sigma = acuity_sigma_pixels(scene.adaptation, ppd);
   p.white = scene.adaptation / 0.18 / scene.white_luminance;
   p.xyz_from_rgb = scene.xyz_from_rgb;

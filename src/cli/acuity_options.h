@@ -50,7 +50,7 @@ AcuityChoice understand(const AcuityOptions& options);
 AngularResolution angular_resolution(const AcuityChoice& choice, const PixelSource& source,
                                      const ImageLayout& layout);
 
-/// The filter of a scene; nullptr where all that the pixels can hold is resolved, or strength is 0.
+/// The filter of a scene, for a plan that runs it.
 std::unique_ptr<SpatialFilter> acuity_filter(const AcuityChoice& choice, const AppearanceParameters& scene,
                                              const AngularResolution& resolution, const Console& console);
 

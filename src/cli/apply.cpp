@@ -10,9 +10,9 @@
 #include "cli/precision_options.h"
 #include "cli/program.h"
 #include "cli/scene_numbers.h"
+#include "cli/scene_plan.h"
 #include "cli/spectral_options.h"
 #include "image/apply_image.h"
-#include "scene/plan.h"
 
 namespace scotopic {
 namespace {
@@ -82,25 +82,12 @@ void describe_layout(const PixelSource& source, const ColourConfig& config, cons
       console.note(source.file() + ": has been through scotopic already; this is the second time");
 }
 
-/// The scene's statistics where something depends on them: --adaptation auto, --effects auto.
+/// The scene's statistics, where the adaptation depends on them.
 std::optional<SceneStatistics> measure(PixelSource& source, const ImageLayout& layout,
                                        const ColourConfig& config, const OperatorChoice& choice,
                                        const KnownNumbers& known) {
-  const bool adaptation = needs_measurement(known, source.file());
-  if (!adaptation && !choice.plan_effects) return std::nullopt;
+  if (!needs_measurement(known, source.file())) return std::nullopt;
   return measure_image(source, layout, config, choice.parameters);
-}
-
-void plan_effects(AppearanceParameters& parameters, const SceneStatistics& statistics,
-                  const Console& console) {
-  PlanRequest request;
-  request.parameters = parameters;
-  const ScenePlan plan = plan_scene(request, &statistics);
-  for (const EffectDecision& decision : plan.effects)
-    if (decision.asked)
-      console.detail(fmt::format("{}: {} ({})", decision.effect, decision.runs() ? "applied" : "skipped",
-                                 decision.reason));
-  parameters = plan.parameters;
 }
 
 /// Whether pixels bring signals of their own beside RGB.
@@ -137,10 +124,13 @@ int run_apply(const ApplyOptions& options) {
   AppearanceParameters& parameters = choice.parameters;
   parameters.adaptation = numbers.adaptation;
   parameters.white_luminance = numbers.white_luminance;
-  if (choice.plan_effects) plan_effects(parameters, *statistics, console);
-
   const AngularResolution resolution = angular_resolution(acuity_choice, *source, layout);
-  const std::unique_ptr<SpatialFilter> acuity = acuity_filter(acuity_choice, parameters, resolution, console);
+  const ScenePlan plan =
+      plan_of(choice, plan_request(choice, acuity_choice, resolution), statistics ? &*statistics : nullptr);
+  console.note(source->file() + ": " + plan_line(plan));
+  parameters = plan.parameters;
+  const std::unique_ptr<SpatialFilter> acuity =
+      plan.acuity ? acuity_filter(acuity_choice, parameters, resolution, console) : nullptr;
 
   const ChosenWay way = settle(precision, parameters, has_receptors(layout), console);
   std::vector<Attribute> stamps = stamps_of(parameters, choice, layout);
@@ -150,6 +140,7 @@ int run_apply(const ApplyOptions& options) {
   apply_image(*source, layout, config, way.apply, file, nullptr,
               acuity.get());
   nlohmann::ordered_json result = result_of(options, numbers, layout, stamps, *source);
+  result["effects"] = plan_json(plan);
   if (!way.report.is_null()) result["ways"] = way.report;
   console.result(result);
   return static_cast<int>(ExitCode::done);

@@ -4,12 +4,14 @@
 #include <cstdio>
 
 #include "adaptation/mesopic.h"
+#include "cli/explain_report.h"
 #include "cli/image_options.h"
 #include "cli/operator_options.h"
 #include "cli/program.h"
 #include "cli/scene_numbers.h"
+#include "cli/scene_plan.h"
 #include "cli/spectral_options.h"
-#include "scene/plan.h"
+#include "image/output_file.h"
 
 namespace scotopic {
 namespace {
@@ -18,7 +20,9 @@ struct ExplainOptions {
   std::string input;
   OperatorOptions appearance;
   BandOptions bands;
+  AcuityOptions acuity;
   ImageOptions image;
+  std::string plot;
   CommonOptions common;
 };
 
@@ -27,42 +31,41 @@ struct LightNumbers {
   double log_average, mean, least, greatest;
   double scotopic_mean;
   double sp_ratio;
-  double m;  ///< mesopic adaptation coefficient at La, of this light
+  double m;        ///< mesopic adaptation coefficient at La, of this light
+  double mesopic;  ///< luminance that MES2 gives the mean light at that m
 };
 
 LightNumbers light_of(const SceneStatistics& s, const SceneNumbers& numbers) {
   const double unit = numbers.white_luminance;
   const double sp = s.sp_ratio();
+  const double m = mesopic_coefficient(numbers.adaptation, sp);
   return {unit * s.log_mean_luminance(),
           unit * s.mean_photopic(),
           unit * static_cast<double>(s.least),
           unit * static_cast<double>(s.greatest),
           unit * s.mean_scotopic(),
           sp,
-          mesopic_coefficient(numbers.adaptation, sp)};
+          m,
+          mesopic_luminance(unit * s.mean_photopic(), unit * s.mean_scotopic(), m)};
 }
 
 void print(const LightNumbers& light, const SceneNumbers& numbers, const SceneStatistics& statistics,
-           const ScenePlan& plan) {
+           const ScenePlan& plan, const std::vector<double>& costs) {
   fmt::print("{}\n", describe(numbers));
   fmt::print("photopic luminance   {:.4g} cd/m2 log-average, {:.4g} mean, {:.4g} to {:.4g}\n",
              light.log_average, light.mean, light.least, light.greatest);
   fmt::print("scotopic luminance   {:.4g} cd/m2 mean\n", light.scotopic_mean);
   fmt::print("S/P ratio            {:.4g}\n", light.sp_ratio);
-  fmt::print("mesopic coefficient  {:.4g} (1 photopic, 0 scotopic)\n", light.m);
+  fmt::print("mesopic luminance    {:.4g} cd/m2 of the mean, coefficient m {:.4g} (1 photopic, 0 scotopic)\n",
+             light.mesopic, light.m);
   if (statistics.non_finite > 0) fmt::print("not finite           {} pixels\n", statistics.non_finite);
-  for (const EffectDecision& effect : plan.effects)
-    if (effect.asked || !effect.simulated)
-      fmt::print("{:<20} {}: {}\n", effect.effect,
-                 !effect.simulated ? "not simulated"
-                 : effect.runs()   ? "applies"
-                                   : "not needed",
-                 effect.reason);
+  fmt::print("\n{}\n{}", luminance_text(statistics, numbers.white_luminance), effects_text(plan, costs));
 }
 
 nlohmann::ordered_json result_of(const ExplainOptions& options, const LightNumbers& light,
                                  const SceneNumbers& numbers, const SceneStatistics& statistics,
-                                 const ScenePlan& plan, const PixelSource& source) {
+                                 const ScenePlan& plan, const std::vector<double>& costs,
+                                 const PixelSource& source) {
   nlohmann::ordered_json out;
   out["input"] = options.input;
   out["adaptation"] = numbers.adaptation;
@@ -78,22 +81,28 @@ nlohmann::ordered_json result_of(const ExplainOptions& options, const LightNumbe
   out["mesopicCoefficient"] = light.m;
   out["nonFinite"] = statistics.non_finite;
   out["spectral"] = spectral_report(source);
-  for (const EffectDecision& e : plan.effects)
-    out["effects"][std::string(e.effect)] = {
-        {"simulated", e.simulated}, {"asked", e.asked}, {"runs", e.runs()},  {"number", e.number},
-        {"threshold", e.threshold}, {"unit", e.unit},   {"reason", e.reason}};
+  out["mesopic"] = {{"mean", light.mesopic}};
+  out["effects"] = plan_json(plan);
+  for (std::size_t i = 0; i < plan.effects.size(); ++i)
+    out["effects"][std::string(plan.effects[i].effect)]["nsPerPixel"] = costs[i];
+  for (const LuminanceBar& bar : luminance_bars(statistics, numbers.white_luminance))
+    out["histogram"].push_back({{"from", bar.from}, {"to", 2 * bar.from}, {"share", bar.share}});
+  out["darkShare"] = dark_share(statistics);
   return out;
 }
 
 int run_explain(const ExplainOptions& options) {
   const Console console(options.common);
   OperatorChoice choice = understand(options.appearance);
+  const AcuityChoice acuity = understand(options.acuity);
   const ImageRequest request = understand(options.image);
   const SpectralOptions spectral = understand(options.bands, choice.illuminant, options.image.layer);
   const ColourConfig config = ColourConfig::in_force(options.image.config);
   check_spaces(request, config);
   set_primaries(choice, config);
   set_threads(options.common.threads);
+  std::optional<OutputFile> plot;
+  if (!options.plot.empty()) plot.emplace(options.plot);
   const std::unique_ptr<PixelSource> source =
       open_input(options.input, spectral, options.image.limits, console);
   // Nothing is written: the layout only says where the light is.
@@ -105,12 +114,18 @@ int run_explain(const ExplainOptions& options) {
   const SceneNumbers numbers = settle(known, statistics.log_mean_luminance(), source->file());
   choice.parameters.adaptation = numbers.adaptation;
   choice.parameters.white_luminance = numbers.white_luminance;
-  PlanRequest plan_request;
-  plan_request.parameters = choice.parameters;
-  const ScenePlan plan = plan_scene(plan_request, &statistics);
+  const PlanRequest request_of_plan =
+      plan_request(choice, acuity, angular_resolution(acuity, *source, layout));
+  const ScenePlan plan = plan_of(choice, request_of_plan, &statistics);
+  const std::vector<double> costs = measure_costs(request_of_plan, plan, statistics);
   const LightNumbers light = light_of(statistics, numbers);
-  if (!console.json()) print(light, numbers, statistics, plan);
-  console.result(result_of(options, light, numbers, statistics, plan, *source));
+  if (plot) {
+    const std::string svg = luminance_svg(statistics, numbers.white_luminance, numbers.adaptation);
+    (void)plot->write(svg.data(), svg.size());
+    plot->commit();
+  }
+  if (!console.json()) print(light, numbers, statistics, plan, costs);
+  console.result(result_of(options, light, numbers, statistics, plan, costs, *source));
   return static_cast<int>(ExitCode::done);
 }
 
@@ -123,7 +138,9 @@ void add_explain(CLI::App& program, Invocation& invocation) {
   verb.add_option("input", options->input, "As for apply")->required()->type_name("IN");
   add_operator_options(verb, options->appearance);
   add_band_options(verb, options->bands);
+  add_acuity_options(verb, options->acuity);
   add_input_options(verb, options->image);
+  verb.add_option("--plot", options->plot, "The luminance histogram as an SVG file")->type_name("FILE");
   add_common_options(verb, options->common);
   on_command_line(verb, invocation, options, run_explain);
 }

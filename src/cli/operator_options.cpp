@@ -46,10 +46,15 @@ double strength(const char* option, const std::string& text) {
 /// Effects that a comma-separated list leaves out have strength 0.
 void choose_effects(const std::string& list, OperatorChoice& choice) {
   choice.plan_effects = list == "auto";
-  if (list == "all" || choice.plan_effects) return;
+  if (list == "all" || choice.plan_effects) {
+    choice.acuity = AcuityWish::if_told;
+    return;
+  }
   Strengths& s = choice.parameters.strength;
   const Names<double*> effects = {{"shift", &s.shift}, {"luminance", &s.luminance}, {"chroma", &s.chroma}};
+  double acuity = 0;
   Names<double*> known = effects;
+  known.emplace_back("acuity", &acuity);
   for (const char* whole : {"all", "none", "auto"}) known.emplace_back(whole, nullptr);
   std::vector<double*> chosen;
   for (std::size_t at = 0; list != "none" && at <= list.size();) {
@@ -57,6 +62,7 @@ void choose_effects(const std::string& list, OperatorChoice& choice) {
     const std::string name = list.substr(at, comma - at);
     double* const effect = scotopic::choice("--effects", name, known);
     if (!effect) fail_value("--effects", list, "a list: all, none and auto stand alone");
+    if (effect == &acuity) choice.acuity = AcuityWish::yes;
     chosen.push_back(effect);
     at = comma + 1;
   }
@@ -84,7 +90,7 @@ void add_operator_options(CLI::App& verb, OperatorOptions& o) {
       "What image value 1 stands for; overrides the file's whiteLuminance", "CDM2");
   add("--model", o.model, "filament2021 (default), kirk2011, safko2019", "NAME");
   add("--effects", o.effects,
-      "all (default), none, auto (what the scene calls for), or of shift,luminance,chroma", "LIST");
+      "auto (default: what the scene calls for), all, none, or of shift,luminance,chroma,acuity", "LIST");
   add("--strength", o.strength, "Of all effects, 0 to 1", "X");
   add("--strength-shift", o.strength_shift, "Of the rods' colour shift, 0 to 1", "X");
   add("--strength-luminance", o.strength_luminance, "Of the luminance policy, 0 to 1", "X");

@@ -16,7 +16,7 @@ struct OperatorOptions {
   std::string adaptation = "auto";
   std::string white_luminance;
   std::string model = "filament2021";
-  std::string effects = "all";
+  std::string effects = "auto";
   std::string strength = "1";
   std::string strength_shift = "1";
   std::string strength_luminance = "1";
@@ -28,12 +28,16 @@ struct OperatorOptions {
   std::string rods = "linear";
 };
 
+/// Whether --effects asks for acuity: in a list by name; all and auto only where pixels per degree are told.
+enum class AcuityWish { no, if_told, yes };
+
 /// As understood. Adaptation, white luminance and primaries in `parameters` are not set yet.
 struct OperatorChoice {
   AppearanceParameters parameters;
   std::optional<double> adaptation;       ///< nullopt: auto
   std::optional<double> white_luminance;  ///< nullopt: the file's, or from the adaptation
   bool plan_effects = false;              ///< --effects auto
+  AcuityWish acuity = AcuityWish::no;
   std::string gamut;
   IlluminantChoice illuminant;
 };

@@ -1,0 +1,33 @@
+// What explain prints: the light as bars, the effects as a table, the same as a drawing.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/plan.h"
+#include "scene/scene_statistics.h"
+
+namespace scotopic {
+
+/// Nanoseconds per pixel that each effect of the plan adds on this machine, one thread, measured on the scene's
+/// samples; in the plan's order. 0 where nothing would run, or where there are too few samples to time.
+std::vector<double> measure_costs(const PlanRequest& asked, const ScenePlan& plan, const SceneStatistics& statistics);
+
+/// One bar of the luminance histogram: from cd/m2 up to twice that.
+struct LuminanceBar {
+  double from = 0;
+  double share = 0;
+};
+
+/// Octaves of luminance between the darkest and the brightest that hold light, in cd/m2. `dark`: share of pixels at
+/// or below 0.
+std::vector<LuminanceBar> luminance_bars(const SceneStatistics& statistics, double white_luminance);
+double dark_share(const SceneStatistics& statistics);
+
+std::string luminance_text(const SceneStatistics& statistics, double white_luminance);
+std::string effects_text(const ScenePlan& plan, const std::vector<double>& costs);
+
+/// Bars, adaptation luminance and the mesopic range as an SVG 1.1 document.
+std::string luminance_svg(const SceneStatistics& statistics, double white_luminance, double adaptation);
+
+}  // namespace scotopic
