@@ -21,13 +21,25 @@ Encoding encoding(const RowConverter& converter) {
   return [converter](float* r, float* g, float* b, std::size_t count) { converter.apply(r, g, b, count); };
 }
 
-/// Encoded values all over the unit cube.
-Colours encoded_colours(std::size_t count) {
-  Colours c = stop_colours(count, identity3<double>(), identity3<double>());
-  for (std::size_t i = 0; i < count; ++i)
-    for (float* x : {&c.r[i], &c.g[i], &c.b[i]})
-      *x = *x > 0 ? std::clamp(static_cast<float>((std::log2(*x) + 20) / 28), 0.f, 1.f) : 0.f;
-  return c;
+void convert(const RowConverter& converter, Colours& c) {
+  converter.apply(c.r.data(), c.g.data(), c.b.data(), c.size());
+}
+
+/// Encoded values all over the unit cube, but for those that stand for less than no light.
+Colours encoded_colours(const RowConverter& to_linear) {
+  Colours all = stop_colours(100000, identity3<double>(), identity3<double>());
+  for (std::vector<float>* plane : {&all.r, &all.g, &all.b})
+    for (float& x : *plane) x = x > 0 ? std::clamp((std::log2(x) + 20) / 28, 0.f, 1.f) : 0.f;
+  Colours linear = all;
+  convert(to_linear, linear);
+  Colours light;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!(linear.r[i] >= 0 && linear.g[i] >= 0 && linear.b[i] >= 0)) continue;
+    light.r.push_back(all.r[i]);
+    light.g.push_back(all.g[i]);
+    light.b.push_back(all.b[i]);
+  }
+  return light;
 }
 
 std::string stated(const BakeError& e, const LookSpec& spec) {
@@ -57,10 +69,7 @@ BakeError measure_encoded(const LookSpec& spec, const ColourConfig& config,
                           const OCIO::ConstCPUProcessorRcPtr& processor) {
   const RowConverter to = config.to_working(config.space(spec.space));
   const RowConverter from = config.from_working(config.space(spec.space));
-  const auto convert = [](const RowConverter& c, Colours& x) {
-    c.apply(x.r.data(), x.g.data(), x.b.data(), x.size());
-  };
-  const Colours encoded = encoded_colours(100000);
+  const Colours encoded = encoded_colours(to);
   Colours in = encoded;
   convert(to, in);
   // What the encoding itself cannot hold is not the LUT's fault.
@@ -72,7 +81,9 @@ BakeError measure_encoded(const LookSpec& spec, const ColourConfig& config,
   Colours got = encoded;
   apply(processor, got);
   convert(to, got);
-  return compare(in, expected, got, spec.parameters.xyz_from_rgb);
+  Comparison comparison(spec.parameters.xyz_from_rgb);
+  comparison.add(in, expected, got);
+  return comparison.result();
 }
 
 BakedLook bake_look(const LookSpec& spec, const ColourConfig& config, const std::string& version) {

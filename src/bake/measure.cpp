@@ -10,6 +10,7 @@
 
 #include "appearance/batch.h"
 #include "appearance/colour_difference.h"
+#include "image/primaries.h"
 
 namespace OCIO = OCIO_NAMESPACE;
 
@@ -32,6 +33,13 @@ class EvenPoints {
  private:
   double at_[4] = {0.5, 0.5, 0.5, 0.5};
 };
+
+/// Negative beyond what float makes of a colour on the border.
+bool outside(const Vec3<double>& rgb) {
+  constexpr double rounding = 1e-6;
+  const auto [low, high] = std::minmax({rgb[0], rgb[1], rgb[2]});
+  return low < -rounding * std::abs(high);
+}
 
 }  // namespace
 
@@ -57,28 +65,39 @@ Colours stop_colours(std::size_t count, const Matrix3<double>& xyz_from_gamut,
   return colours;
 }
 
-BakeError compare(const Colours& in, const Colours& expected, const Colours& got,
-                  const Matrix3<double>& xyz_from_rgb) {
+Comparison::Comparison(const Matrix3<double>& xyz_from_rgb)
+    : xyz_from_rgb_(xyz_from_rgb), ap1_from_rgb_(inverse(gamut_xyz_matrix("ap1").value()) * xyz_from_rgb) {}
+
+void Comparison::add(const Colours& in, const Colours& expected, const Colours& got) {
   const auto at = [](const Colours& c, std::size_t i) { return Vec3<double>{c.r[i], c.g[i], c.b[i]}; };
-  std::vector<double> differences(expected.size());
-  BakeError error;
-  error.samples = expected.size();
-  if (differences.empty()) return error;
-  double sum = 0;
-  for (std::size_t i = 0; i < differences.size(); ++i) {
-    const double d = exposed_difference(xyz_from_rgb * at(expected, i), xyz_from_rgb * at(got, i));
-    differences[i] = d;
-    sum += d;
-    if (d > differences[error.worst_index]) error.worst_index = i;
+  for (std::size_t i = 0; i < expected.size(); ++i, ++seen_) {
+    const double d = exposed_difference(xyz_from_rgb_ * at(expected, i), xyz_from_rgb_ * at(got, i));
+    if (outside(ap1_from_rgb_ * at(in, i))) {
+      ++worst_.outside;
+      worst_.outside_max = std::max(worst_.outside_max, d);
+      continue;
+    }
+    if (d > worst_.max || differences_.empty()) {
+      worst_.max = d;
+      worst_.worst = at(in, i);
+      worst_.expected = at(expected, i);
+      worst_.got = at(got, i);
+      worst_.worst_index = seen_;
+    }
+    differences_.push_back(static_cast<float>(d));
+    sum_ += d;
   }
-  error.mean = sum / static_cast<double>(differences.size());
-  error.max = differences[error.worst_index];
-  error.worst = at(in, error.worst_index);
-  error.expected = at(expected, error.worst_index);
-  error.got = at(got, error.worst_index);
-  const auto p99 = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() * 99 / 100);
-  std::nth_element(differences.begin(), p99, differences.end());
-  error.p99 = *p99;
+}
+
+BakeError Comparison::result() const {
+  BakeError error = worst_;
+  error.samples = differences_.size();
+  if (error.samples == 0) return error;
+  error.mean = sum_ / static_cast<double>(error.samples);
+  std::vector<float> sorted = differences_;
+  const auto p99 = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 99 / 100);
+  std::nth_element(sorted.begin(), p99, sorted.end());
+  error.p99 = static_cast<double>(*p99);
   return error;
 }
 
@@ -101,7 +120,9 @@ BakeError measure_bake(const AppearanceParameters& parameters, const OCIO::Const
   const Colours in = stop_colours(count, xyz_from_gamut, parameters.xyz_from_rgb);
   Colours got = in;
   apply(processor, got);
-  return compare(in, exact(parameters, in), got, parameters.xyz_from_rgb);
+  Comparison comparison(parameters.xyz_from_rgb);
+  comparison.add(in, exact(parameters, in), got);
+  return comparison.result();
 }
 
 OddPixels odd_pixels(const OCIO::ConstCPUProcessorRcPtr& processor) {

@@ -29,12 +29,30 @@ struct BakeError {
   double mean = 0, p99 = 0, max = 0;
   Vec3<double> worst{}, expected{}, got{};  ///< linear RGB in, wanted and given where the error is greatest
   std::size_t samples = 0;
-  std::size_t worst_index = 0;
+  std::size_t worst_index = 0;  ///< counted over all pixels that were compared
+  /// Pixels outside AP1, which a look clamps to its border - imaginary colours most of them, as compression
+  /// makes - are counted here and nowhere else.
+  std::size_t outside = 0;
+  double outside_max = 0;
 };
 
-/// Statistics over planar linear RGB of one size.
-BakeError compare(const Colours& in, const Colours& expected, const Colours& got,
-                  const Matrix3<double>& xyz_from_rgb);
+/// Gathers differences batch by batch; 4 bytes for each pixel.
+class Comparison {
+ public:
+  explicit Comparison(const Matrix3<double>& xyz_from_rgb);
+
+  /// Planar linear RGB, all of one size.
+  void add(const Colours& in, const Colours& expected, const Colours& got);
+  BakeError result() const;
+
+ private:
+  Matrix3<double> xyz_from_rgb_;
+  Matrix3<double> ap1_from_rgb_;
+  std::size_t seen_ = 0;
+  std::vector<float> differences_;
+  double sum_ = 0;
+  BakeError worst_;
+};
 
 /// The operator's result, float rounded from double.
 Colours exact(const AppearanceParameters& parameters, Colours colours);

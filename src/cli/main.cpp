@@ -3,5 +3,6 @@
 
 int main(int argc, char** argv) {
   return scotopic::run_program(
-      argc, argv, {scotopic::add_apply, scotopic::add_lmsr, scotopic::add_explain, scotopic::add_bake});
+      argc, argv, {scotopic::add_apply, scotopic::add_lmsr, scotopic::add_explain, scotopic::add_bake, scotopic::add_check,
+                   scotopic::add_time});
 }

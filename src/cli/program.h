@@ -36,5 +36,7 @@ void add_apply(CLI::App& program, Invocation& invocation);
 void add_lmsr(CLI::App& program, Invocation& invocation);
 void add_explain(CLI::App& program, Invocation& invocation);
 void add_bake(CLI::App& program, Invocation& invocation);
+void add_check(CLI::App& program, Invocation& invocation);
+void add_time(CLI::App& program, Invocation& invocation);
 
 }  // namespace scotopic
