@@ -242,5 +242,11 @@ void AppearanceBatch::apply_rgba(std::uint16_t* rgba, std::size_t count, std::ui
   HWY_DYNAMIC_DISPATCH(apply_half_rgba)(constants_->main(), constants_->exact, rgba, count, touched);
 }
 
+const char* simd_target() noexcept {
+  // Targets are bits, better ones lower.
+  const std::int64_t supported = hwy::SupportedTargets() & HWY_TARGETS;
+  return hwy::TargetName(supported & -supported);
+}
+
 }  // namespace scotopic
 #endif  // HWY_ONCE

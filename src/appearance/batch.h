@@ -62,4 +62,7 @@ class AppearanceBatch {
   std::unique_ptr<const Constants> constants_;
 };
 
+/// The vector instructions in use: "AVX3" (AVX-512), "AVX2", "SSE4", "NEON" ...
+const char* simd_target() noexcept;
+
 }  // namespace scotopic
