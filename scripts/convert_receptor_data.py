@@ -43,9 +43,9 @@ TABLES = {
         "nm; relative spectral power, s0 is 100 at 560 nm", ("s0", "s1", "s2"), "B_cieday", None),
     "lamps_houser_2013.csv": (
         "High-pressure sodium (NIST 9: HPS), LED near 3000 K (NIST 125: Cree F2), "
-        "LED near 4000 K (Wei and Houser: NGL-78)",
+        "LED near 4000 K (MCRI-55: WR4k, white and red)",
         HOUSER, "nm; relative spectral power, peak 1", ("hps", "led3000", "led4000"), "spd_houser",
-        ("NIST 9: HPS", "NIST 125: Cree F2", "Wei and Houser, 2012: NGL-78")),
+        ("NIST 9: HPS", "NIST 125: Cree F2", "MCRI-55: WR4k")),
 }
 
 # file name: what it is, source, .mat file, first and last wavelength measured, step to keep

@@ -19,7 +19,7 @@ constexpr std::array illuminants = {
     NamedIlluminant{"a", 1.41, "tungsten, CIE A"},
     NamedIlluminant{"hps", 0.645, "high-pressure sodium"},
     NamedIlluminant{"led3000", 1.33, "phosphor-converted LED, about 3000 K"},
-    NamedIlluminant{"led4000", 1.72, "phosphor-converted LED, about 4000 K"},
+    NamedIlluminant{"led4000", 1.72, "white and red LED, about 4000 K"},
 };
 
 constexpr double moon_kelvin = 4490.0;

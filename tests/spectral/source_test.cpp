@@ -272,7 +272,11 @@ TEST(SpectralSource, one_nanometre_points_are_the_ground_truth) {
       scene.light = test::lit(test::reflectances("macbeth"), test::lamp(name), level);
       scene.step = 1.0;
       scene.centres = test::band_centres(test::scene_first_nm, 1.0, test::scene_last_nm);
-      test::write_exr(folder / "fine.exr", scene.image(scene.bands()));
+      TestImage fine =
+          scene.image(test::band_channels(scene.light, 24, scene.centres, 1.0, test::stokes_name));
+      fine.width = 24;
+      fine.height = 1;
+      test::write_exr(folder / "fine.exr", fine);
       SpectralOptions options;
       options.sampling = BandSampling::point;
       const auto signals = read_all(*open(folder / "fine.exr", options));
