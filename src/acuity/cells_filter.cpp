@@ -152,13 +152,15 @@ template <AcuitySpace space>
 HWY_INLINE void finish(const Constants& c, Three<V> sums, V total, Three<V> lab, float* red,
                        std::ptrdiff_t plane) {
   const D d;
-  // A pixel alone in colour within a cell of too many colours may see nothing: it stays as it is.
-  const auto seen = hn::And(hn::Lt(lab.x, hn::Set(d, 0.5f * absent)), hn::Gt(total, hn::Zero(d)));
-  const Three<V> change = mean_change<space>(c, sums, hn::IfThenElse(seen, total, hn::Set(d, 1.0f)), lab);
+  // A pixel weighs at least 1 in its own mean. One unlike all the rest of a cell of many colours may not have
+  // been counted: it is now, and changes by less.
+  const V whole = hn::Max(total, hn::Set(d, 1.0f));
+  const auto present = hn::Lt(lab.x, hn::Set(d, 0.5f * absent));
+  const Three<V> change = mean_change<space>(c, sums, whole, lab);
   const V strength = hn::Set(d, c.strength);
   const auto store = [&](float* at, V delta) HWY_ATTR {
     const V own = hn::Load(d, at);
-    hn::Store(hn::IfThenElse(seen, hn::MulAdd(strength, delta, own), own), d, at);
+    hn::Store(hn::IfThenElse(present, hn::MulAdd(strength, delta, own), own), d, at);
   };
   store(red, change.x);
   store(red + plane, change.y);
