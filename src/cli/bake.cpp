@@ -68,9 +68,12 @@ std::vector<double> adaptations_of(const BakeOptions& o) {
   return out;
 }
 
-OperatorChoice operator_choice(const BakeOptions& o) {
-  OperatorChoice out = understand(o.appearance);
-  if (out.plan_effects) fail_value("--effects", "auto", "all, none or a list: a LUT does not see the image");
+/// --effects auto is all: what a scene calls for is decided pixel by pixel, in the LUT.
+OperatorChoice operator_choice(const OperatorOptions& o) {
+  const OperatorChoice out = understand(o);
+  if (out.acuity == AcuityWish::yes)
+    fail_value("--effects", o.effects,
+               "shift, luminance and chroma: acuity needs a pixel's neighbours, which no LUT sees");
   return out;
 }
 
@@ -154,7 +157,7 @@ std::string numbered(const std::string& output, double adaptation) {
 int bake_files(const BakeOptions& o, const ColourConfig& config, const Console& console) {
   const Format format = format_of(o);
   const std::vector<double> adaptations = adaptations_of(o);
-  const OperatorChoice choice = operator_choice(o);
+  const OperatorChoice choice = operator_choice(o.appearance);
   nlohmann::ordered_json results = nlohmann::ordered_json::array();
   for (const double adaptation : adaptations) {
     const LookSpec spec = spec_for(choice, o, config, adaptation);
@@ -173,12 +176,12 @@ int bake_files(const BakeOptions& o, const ColourConfig& config, const Console& 
 
 std::vector<LookSpec> specs_for_config(const BakeOptions& o, const ColourConfig& config) {
   std::vector<LookSpec> specs;
-  OperatorChoice choice = operator_choice(o);
+  OperatorChoice choice = operator_choice(o.appearance);
   for (const double adaptation : adaptations_of(o)) specs.push_back(spec_for(choice, o, config, adaptation));
   if (!o.beside.empty()) {
     OperatorOptions other = o.appearance;
     other.model = o.beside;
-    choice = understand(other);
+    choice = operator_choice(other);
     for (const double adaptation : adaptations_of(o)) {
       const LookSpec spec = spec_for(choice, o, config, adaptation);
       if (!is_identity(spec.parameters)) specs.push_back(spec);
@@ -194,7 +197,8 @@ std::string command_of(const BakeOptions& o) {
   std::string text = "scotopic bake";
   for (const std::string& a : o.adaptations) text += " --adaptation " + a;
   if (!o.beside.empty()) text += " --beside " + o.beside;
-  return text + " --model " + o.appearance.model + " --size " + o.size + " --config DIR";
+  text += " --model " + o.appearance.model + " --size " + o.size + " --config DIR";
+  return o.luts.empty() ? text : text + " --luts LUTS";
 }
 
 bool has_whole_ladder(const std::vector<LookSpec>& specs) {
@@ -239,7 +243,7 @@ int run_bake(const BakeOptions& o) {
     throw Error(ExitCode::usage, "", "give -o FILE for one LUT, or --config DIR for a whole config");
   (void)edge_of(o);
   (void)adaptations_of(o);
-  (void)operator_choice(o);
+  (void)operator_choice(o.appearance);
   if (!o.new_config.empty()) return bake_config(o, ColourConfig::own(), console);
   (void)format_of(o);
   return bake_files(o, ColourConfig::in_force(o.colour_config), console);

@@ -84,6 +84,9 @@ void say(const Inspected& it, const std::string& where) {
         error_text(*it.error), it.error->worst[0], it.error->worst[1], it.error->worst[2], it.error->got[0],
         it.error->got[1], it.error->got[2], it.error->expected[0], it.error->expected[1],
         it.error->expected[2], where);
+  if (it.error && it.error->outside > 0)
+    line += fmt::format("; besides, {} pixels outside AP1, clamped to its border, max {:.3g}", it.error->outside,
+                        it.error->outside_max);
   if (it.odd.tested > 0)
     line += fmt::format("; {} odd pixels, {} not finite", it.odd.tested, it.odd.not_finite);
   for (const std::string& problem : it.problems) line += "\n  FAILED: " + problem;
