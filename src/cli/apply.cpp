@@ -137,7 +137,7 @@ int run_apply(const ApplyOptions& options) {
   stamps.push_back({"scotopic:precision", way.name});
   if (acuity) stamps.push_back({"scotopic:acuityPixelsPerDegree", resolution.pixels_per_degree});
   set_stamps(layout, stamps);
-  apply_image(*source, layout, config, way.apply, file, nullptr,
+  apply_image(*source, layout, config, plan.nothing() ? RowOperator{} : way.apply, file, nullptr,
               acuity.get());
   nlohmann::ordered_json result = result_of(options, numbers, layout, stamps, *source);
   result["effects"] = plan_json(plan);

@@ -36,6 +36,7 @@ class PictureRun {
   void run(const Band& in, Band& out, bool interleaved) const {
     allocate(in, out, interleaved);
     each_row(in, [&](int row, LightRow& light) {
+      if (copies()) return copy_row(in, row, light, out);
       see_row(in, row, light);
       write_row(in, row, light, out);
     });
@@ -78,9 +79,20 @@ class PictureRun {
     });
   }
 
+  /// Nothing is called for, and nothing else changes values: the file's own bytes go through.
+  bool copies() const { return !apply_ && writer_.keep_untouched && !reader_.receptors(); }
+
+  void copy_row(const Band& in, int row, LightRow& room, Band& out) const {
+    const bool grey = light_.channels.kind == ColourChannels::Kind::grey;
+    for (std::size_t c = 0; c < 3; ++c)
+      copy_other(in.channels[light_.channels.index[grey ? 0 : c]].row(row), out.channels[c].row(row), room.r);
+    copy_others(in, row, room, out);
+  }
+
   void see_row(const Band& in, int row, LightRow& light) const {
     reader_.read(in, row, light);
-    apply_(light.pixels(reader_.receptors()), light.touched.data());
+    if (apply_) apply_(light.pixels(reader_.receptors()), light.touched.data());
+    else std::fill(light.touched.begin(), light.touched.end(), std::uint8_t{0});
   }
 
   void write_row(const Band& in, int row, LightRow& light, Band& out) const {
@@ -96,8 +108,12 @@ class PictureRun {
       const NativeRow sources[3] = {source_row(0), source_row(1), source_row(2)};
       writer_.write(light, targets, &sources);
     }
+    copy_others(in, row, light, out);
+  }
+
+  void copy_others(const Band& in, int row, LightRow& room, Band& out) const {
     for (std::size_t i = 0; i < others_.size(); ++i)
-      copy_other(in.channels[others_[i]].row(row), out.channels[3 + i].row(row), light.r);
+      copy_other(in.channels[others_[i]].row(row), out.channels[3 + i].row(row), room.r);
   }
 
   /// Channels that are not colour follow R, G, B, in the file's order.
@@ -117,8 +133,11 @@ class PictureRun {
 
   static void copy_other(const NativeRow& from, const NativeRow& to, std::vector<float>& room) {
     const std::size_t width = room.size();
-    if (from.type == to.type) {
-      const std::size_t size = size_of(from.type);
+    const std::size_t size = size_of(from.type);
+    const auto packed = static_cast<std::ptrdiff_t>(size);
+    if (from.type == to.type && from.stride == packed && to.stride == packed) {
+      std::memcpy(to.data, from.data, width * size);
+    } else if (from.type == to.type) {
       for (std::size_t i = 0; i < width; ++i)
         std::memcpy(to.data + static_cast<std::ptrdiff_t>(i) * to.stride,
                     from.data + static_cast<std::ptrdiff_t>(i) * from.stride, size);

@@ -73,7 +73,8 @@ using Progress = std::function<void(std::int64_t done, std::int64_t total)>;
 SceneStatistics measure_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
                               const AppearanceParameters& parameters);
 
-/// Writes the whole output; `acuity` is applied last, to each picture by itself. Same bytes for any number of
+/// Writes the whole output. Without `apply` (empty) nothing is called for: where nothing else changes values either,
+/// the file's own bytes go through. `acuity` is applied last, to each picture by itself. Same bytes for any number of
 /// threads.
 void apply_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
                  const RowOperator& apply, OutputFile& file, const Progress& progress = nullptr,

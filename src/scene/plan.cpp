@@ -56,6 +56,17 @@ EffectDecision decide_luminance(const AppearanceParameters& p, const Darkness& d
   return d;
 }
 
+// The thesis' pipeline has one stage, and no luminance from which on it ends.
+void decide_safko(ScenePlan& plan) {
+  for (EffectDecision& d : plan.effects) {
+    if (d.effect == "luminance" || d.effect == "chroma") d.asked = false;
+    if (d.effect != "shift") continue;
+    d.asked = d.needed = true;
+    d.share = 1;
+    d.reason = "safko2019 acts at every luminance";
+  }
+}
+
 EffectDecision decide_acuity(const PlanRequest& request) {
   EffectDecision d{.effect = "acuity", .asked = request.acuity, .unit = "cycles/degree"};
   d.threshold = acuity_cutoff(request.parameters.adaptation);
@@ -127,6 +138,11 @@ ScenePlan plan_scene(const PlanRequest& request, const SceneStatistics* statisti
                   not_simulated("glare"),
                   not_simulated("noise"),
                   not_simulated("time")};
+  if (p.model == Model::safko2019) {
+    decide_safko(plan);
+    plan.acuity = plan.effect("acuity").runs();
+    return plan;
+  }
   if (statistics) measure_differences(plan, p, *statistics);
   if (!plan.effect("shift").needed) plan.parameters.strength.shift = 0;
   if (!plan.effect("chroma").needed) plan.parameters.strength.chroma = 0;

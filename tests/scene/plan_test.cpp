@@ -48,6 +48,15 @@ TEST(Plan, effects_end_at_five_candelas) {
   }
 }
 
+TEST(Plan, the_thesis_pipeline_is_never_skipped) {
+  PlanRequest request = at(1000);
+  request.parameters.model = Model::safko2019;
+  const ScenePlan plan = plan_scene(request, nullptr);
+  EXPECT_TRUE(plan.effect("shift").runs());
+  EXPECT_FALSE(plan.effect("luminance").runs());
+  EXPECT_FALSE(plan.nothing());
+}
+
 TEST(Plan, a_dark_adapted_eye_that_sees_only_bright_pixels_needs_nothing) {
   PlanRequest request = at(0.01);
   request.parameters.white_luminance = 10;
