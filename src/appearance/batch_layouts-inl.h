@@ -76,15 +76,15 @@ HWY_INLINE auto encoded(FloatVector v) {
   else return half_from(v);
 }
 
-// Pixels in three planes of element E.
+// Pixels in three planes of element E. `alpha` is for the layouts that have it.
 template <typename E>
 struct PlaneLayout {
   E *r, *g, *b;
 
-  void load(std::size_t at, const PixelRows& to, std::size_t i) const {
+  void load(std::size_t at, const PixelRows& to, E*, std::size_t i) const {
     write(read(r + at), to.r + i), write(read(g + at), to.g + i), write(read(b + at), to.b + i);
   }
-  void store(const PixelRows& from, std::size_t i, std::size_t at) const {
+  void store(const PixelRows& from, const E*, std::size_t i, std::size_t at) const {
     write(read(from.r + i), r + at), write(read(from.g + i), g + at), write(read(from.b + i), b + at);
   }
   void copy_pixel(const PlaneLayout& from, std::size_t i, std::size_t at) const {
@@ -97,18 +97,17 @@ template <typename E>
 struct RgbaLayout {
   E* rgba;
 
-  void load(std::size_t at, const PixelRows& to, std::size_t i) const {
+  void load(std::size_t at, const PixelRows& to, E* alpha, std::size_t i) const {
     const ElementTag<E> d;
     auto r = hn::Zero(d), g = r, b = r, a = r;
     hn::LoadInterleaved4(d, rgba + 4 * at, r, g, b, a);
     write(decoded(r), to.r + i), write(decoded(g), to.g + i), write(decoded(b), to.b + i);
+    hn::StoreU(a, d, alpha + i);
   }
-  void store(const PixelRows& from, std::size_t i, std::size_t at) const {
+  void store(const PixelRows& from, const E* alpha, std::size_t i, std::size_t at) const {
     const ElementTag<E> d;
-    auto r = hn::Zero(d), g = r, b = r, a = r;
-    hn::LoadInterleaved4(d, rgba + 4 * at, r, g, b, a);
-    hn::StoreInterleaved4(encoded<E>(read(from.r + i)), encoded<E>(read(from.g + i)), encoded<E>(read(from.b + i)), a,
-                          d, rgba + 4 * at);
+    hn::StoreInterleaved4(encoded<E>(read(from.r + i)), encoded<E>(read(from.g + i)), encoded<E>(read(from.b + i)),
+                          hn::LoadU(d, alpha + i), d, rgba + 4 * at);
   }
   void copy_pixel(const RgbaLayout& from, std::size_t i, std::size_t at) const {
     std::copy_n(from.rgba + 4 * i, 3, rgba + 4 * at);
@@ -125,51 +124,65 @@ struct LayoutRoom {
   RgbaLayout<E> as(const RgbaLayout<E>&) { return {elements}; }
 };
 
-// Stores those of `count` pixels that were touched, at most a vector of them.
+// Some pixels as planes, and which of them the operator touched.
+template <typename E>
+struct Block {
+  static constexpr std::size_t most = 512, room = most + HWY_MAX_BYTES / sizeof(float);
+  HWY_ALIGN float planes[3][room];
+  HWY_ALIGN E alpha[room];
+  std::uint8_t touched[most];
+  PixelRows rows;
+
+  explicit Block(std::size_t count) {
+    rows.r = planes[0], rows.g = planes[1], rows.b = planes[2];
+    rows.count = count;
+  }
+};
+
+// Fills a block from `at` on.
 template <typename E, class Layout>
-void store_touched(const Layout& layout, const PixelRows& block, const std::uint8_t* touched, std::size_t i,
-                   std::size_t at, std::size_t count) {
+void load_block(const Layout& layout, std::size_t at, Block<E>& block) {
+  const std::size_t lanes = hn::Lanes(FloatTag()), count = block.rows.count;
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) layout.load(at + i, block.rows, block.alpha, i);
+  if (i == count) return;
   LayoutRoom<E> room;
-  const Layout results = room.as(layout);
-  results.store(block, i, 0);
-  for (std::size_t k = 0; k < count; ++k)
-    if (touched[i + k]) layout.copy_pixel(results, k, at + k);
+  const Layout rest = room.as(layout);
+  for (std::size_t k = 0; i + k < count; ++k) rest.copy_pixel(layout, at + i + k, k);
+  rest.load(0, block.rows, block.alpha, i);
 }
 
-// The same for a whole block that lies at `at`.
+// Stores those of `count` pixels, a vector or less, that were touched.
 template <typename E, class Layout>
-void store_block(const Layout& layout, const PixelRows& block, const std::uint8_t* touched, std::size_t at) {
-  const std::size_t lanes = hn::Lanes(FloatTag());
-  if (!std::memchr(touched, 1, block.count)) return;
-  const bool all = std::memchr(touched, 0, block.count) == nullptr;
-  for (std::size_t i = 0; i < block.count; i += lanes) {
-    if (all && i + lanes <= block.count) layout.store(block, i, at + i);
-    else store_touched<E>(layout, block, touched, i, at + i, std::min(lanes, block.count - i));
+void store_touched(const Layout& layout, const Block<E>& block, std::size_t i, std::size_t at, std::size_t count) {
+  LayoutRoom<E> room;
+  const Layout results = room.as(layout);
+  results.store(block.rows, block.alpha, i, 0);
+  for (std::size_t k = 0; k < count; ++k)
+    if (block.touched[i + k]) layout.copy_pixel(results, k, at + k);
+}
+
+// Puts a block back to where it came from.
+template <typename E, class Layout>
+void store_block(const Layout& layout, const Block<E>& block, std::size_t at) {
+  const std::size_t lanes = hn::Lanes(FloatTag()), count = block.rows.count;
+  if (!std::memchr(block.touched, 1, count)) return;
+  const bool all = std::memchr(block.touched, 0, count) == nullptr;
+  for (std::size_t i = 0; i < count; i += lanes) {
+    if (all && i + lanes <= count) layout.store(block.rows, block.alpha, i, at + i);
+    else store_touched(layout, block, i, at + i, std::min(lanes, count - i));
   }
 }
 
 // Calls apply(planes, touched) for blocks of the pixels of a layout.
 template <typename E, class Layout, class Apply>
 void apply_in_blocks(const Layout& layout, std::size_t count, std::uint8_t* touched, const Apply& apply) {
-  constexpr std::size_t most = 512;
-  HWY_ALIGN float planes[3][most + HWY_MAX_BYTES / sizeof(float)];
-  std::uint8_t touched_here[most];
-  const std::size_t lanes = hn::Lanes(FloatTag());
-  for (std::size_t at = 0; at < count; at += most) {
-    PixelRows block;
-    block.r = planes[0], block.g = planes[1], block.b = planes[2];
-    block.count = std::min(most, count - at);
-    std::size_t i = 0;
-    for (; i + lanes <= block.count; i += lanes) layout.load(at + i, block, i);
-    if (i < block.count) {
-      LayoutRoom<E> room;
-      const Layout rest = room.as(layout);
-      for (std::size_t k = 0; i + k < block.count; ++k) rest.copy_pixel(layout, at + i + k, k);
-      rest.load(0, block, i);
-    }
-    apply(block, touched_here);
-    if (touched) std::copy_n(touched_here, block.count, touched + at);
-    store_block<E>(layout, block, touched_here, at);
+  for (std::size_t at = 0; at < count; at += Block<E>::most) {
+    Block<E> block(std::min(Block<E>::most, count - at));
+    load_block(layout, at, block);
+    apply(block.rows, block.touched);
+    if (touched) std::copy_n(block.touched, block.rows.count, touched + at);
+    store_block(layout, block, at);
   }
 }
 
