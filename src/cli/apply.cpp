@@ -31,21 +31,24 @@ struct ApplyOptions {
 std::vector<Attribute> stamps_of(const AppearanceParameters& p, const OperatorChoice& choice,
                                  const ImageLayout& layout) {
   const auto share = [&](double strength) { return p.strength.all * strength; };
-  return {{"scotopic:version", std::string(SCOTOPIC_VERSION)},
-          {"scotopic:model", model_name(p.model)},
-          {"scotopic:adaptation", p.adaptation},
-          {"scotopic:sceneWhiteLuminance", p.white_luminance},
-          {"scotopic:strengthShift", share(p.strength.shift)},
-          {"scotopic:strengthLuminance", share(p.strength.luminance)},
-          {"scotopic:strengthChroma", share(p.strength.chroma)},
-          {"scotopic:weight", weight_name(p.weight)},
-          {"scotopic:luminance", luminance_name(p.luminance)},
-          {"scotopic:gamut", choice.gamut},
-          {"scotopic:rods", rods_name(p.rods)},
-          {"scotopic:spRatio", p.sp_ratio},
-          {"scotopic:exposure", layout.exposure},
-          {"scotopic:colorspace", layout.output_space.name},
-          {"whiteLuminance", p.white_luminance / std::exp2(layout.exposure)}};
+  const ColourChannels::Kind kind = layout.light.front().channels.kind;
+  const bool own = kind == ColourChannels::Kind::lmsr || kind == ColourChannels::Kind::computed;
+  std::vector<Attribute> stamps = {{"scotopic:version", std::string(SCOTOPIC_VERSION)},
+                                   {"scotopic:model", model_name(p.model)},
+                                   {"scotopic:adaptation", p.adaptation},
+                                   {"scotopic:sceneWhiteLuminance", p.white_luminance},
+                                   {"scotopic:strengthShift", share(p.strength.shift)},
+                                   {"scotopic:strengthLuminance", share(p.strength.luminance)},
+                                   {"scotopic:strengthChroma", share(p.strength.chroma)},
+                                   {"scotopic:weight", weight_name(p.weight)},
+                                   {"scotopic:luminance", luminance_name(p.luminance)},
+                                   {"scotopic:gamut", choice.gamut},
+                                   {"scotopic:rods", own ? "the file's own signals" : rods_name(p.rods)},
+                                   {"scotopic:exposure", layout.exposure},
+                                   {"scotopic:colorspace", layout.output_space.name},
+                                   {"whiteLuminance", p.white_luminance / std::exp2(layout.exposure)}};
+  if (!own) stamps.push_back({"scotopic:spRatio", p.sp_ratio});  // rods were estimated for that light
+  return stamps;
 }
 
 nlohmann::ordered_json result_of(const ApplyOptions& options, const SceneNumbers& numbers,
