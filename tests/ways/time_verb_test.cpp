@@ -1,0 +1,107 @@
+// `scotopic time` and the demands of `scotopic apply`, from the command line.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int code;
+  std::string out;
+};
+
+Outcome run(const std::string& arguments) {
+  const std::string command = std::string(SCOTOPIC_PROGRAM) + " " + arguments;
+  std::FILE* const pipe = popen(command.c_str(), "r");
+  std::string out;
+  char buffer[4096];
+  for (std::size_t n; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) out.append(buffer, n);
+  return {WEXITSTATUS(pclose(pipe)), out};
+}
+
+std::string content(const fs::path& path) {
+  std::stringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+class Folder {
+ public:
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "scotopic-XXXXXX").string();
+    path = mkdtemp(name.data());
+  }
+  ~Folder() { fs::remove_all(path); }
+  fs::path path;
+};
+
+TEST(TimeVerb, every_way_has_its_row_with_time_and_error) {
+  const Folder folder;
+  const fs::path plot = folder.path / "cost.svg";
+  const Outcome outcome = run("time --pixels 65536 --rounds 1 --json --plot " + plot.string());
+  ASSERT_EQ(outcome.code, 0);
+  const auto result = nlohmann::json::parse(outcome.out);
+  std::set<std::string> names;
+  for (const auto& way : result["ways"]) {
+    names.insert(way["way"]);
+    EXPECT_GT(way["nanosecondsPerPixel"], 0) << way["way"];
+    if (way["way"] != "memcpy") {
+      EXPECT_TRUE(way["error"]["deltaE00"].contains("p99")) << way["way"];
+    }
+    if (way["way"] == "float" && way["group"] == "operator") {
+      EXPECT_LE(way["error"]["relativePixel"]["max"], 5e-7);
+      EXPECT_FALSE(way["error"]["worst"].empty());
+    }
+    if (way["way"] == "lut65") {
+      EXPECT_GT(way["bytes"], 3 * 65 * 65 * 65 * 4);
+      EXPECT_GT(way["bakeSeconds"], 0);
+    }
+  }
+  for (const char* name :
+       {"memcpy", "double, scalar", "double", "float", "lut129", "lut65", "lut33", "lut17", "float, RGBA float",
+        "1 nm bins", "5 nm points", "10 nm bins", "window", "cells, fine", "cells, draft"})
+    EXPECT_TRUE(names.contains(name)) << name;
+  EXPECT_GE(result["pixels"], 65536);
+  const std::string svg = content(plot);
+  EXPECT_EQ(svg.rfind("<svg", 0), 0u);
+  EXPECT_NE(svg.find("lut33</text>"), std::string::npos);
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+}
+
+TEST(TimeVerb, csv_has_as_many_fields_in_every_row) {
+  const Outcome outcome = run("time --pixels 65536 --rounds 1 --csv");
+  ASSERT_EQ(outcome.code, 0);
+  std::istringstream lines(outcome.out);
+  int rows = 0;
+  for (std::string line; std::getline(lines, line); ++rows) {
+    bool quoted = false;
+    int fields = 1;
+    for (const char c : line) {
+      if (c == '"') quoted = !quoted;
+      if (c == ',' && !quoted) ++fields;
+    }
+    EXPECT_EQ(fields, 19) << line;
+  }
+  EXPECT_GT(rows, 20);
+}
+
+TEST(TimeVerb, values_that_are_no_demand_are_refused_before_any_file_is_opened) {
+  for (const char* arguments :
+       {"apply none.exr -o out.exr --max-error x", "apply none.exr -o out.exr --max-error -1",
+        "apply none.exr -o out.exr --budget nan", "apply none.exr -o out.exr --precision lut34",
+        "apply none.exr -o out.exr --precision float --budget 5", "time --rounds 0", "time --pixels 10"})
+    EXPECT_EQ(run(std::string(arguments) + " 2>/dev/null").code, 2) << arguments;
+  EXPECT_FALSE(fs::exists("out.exr"));
+}
+
+}  // namespace
