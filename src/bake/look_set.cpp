@@ -70,8 +70,11 @@ LookSet bake_set(const std::vector<LookSpec>& specs, const ColourConfig& config,
   for (const LookSpec& spec : specs)
     if (spec.parameters.model == model && !is_identity(spec.parameters))
       set.entries.push_back(chroma_entry(spec.parameters));
-  set.luts.push_back({highlight_file, xml_text(highlight_chain(version), ChainFormat::clf)});
   return set;
+}
+
+void add_highlights(LookSet& set, const std::string& version) {
+  set.luts.push_back({highlight_file, xml_text(highlight_chain(version), ChainFormat::clf)});
 }
 
 std::string manifest_text(const LookSet& set, const std::string& version, const std::string& command) {

@@ -26,10 +26,13 @@ struct LookSet {
 LookSet bake_set(const std::vector<LookSpec>& specs, const ColourConfig& config, const std::string& version,
                  bool context);
 
+/// The curve of the own config's highlight-safe views.
+void add_highlights(LookSet& set, const std::string& version);
+
 /// luts/MANIFEST: what `sha256sum -c` checks; a comment before each file states its error.
 std::string manifest_text(const LookSet& set, const std::string& version, const std::string& command);
 
-/// The config's own text and the LUTs' (with the highlight curve), all beside it in folder luts.
+/// The own config with the set's looks, its LUTs in folder luts or ../luts.
 std::string look_config_text(const LookSet& set);
 
 }  // namespace scotopic

@@ -5,6 +5,8 @@
 
 #include "bake/baked_look.h"
 #include "bake/chain_text.h"
+#include "bake/config_merge.h"
+#include "bake/inspect.h"
 #include "bake/ladder.h"
 #include "bake/look_set.h"
 #include "cli/operator_options.h"
@@ -28,6 +30,8 @@ struct BakeOptions {
   std::string colour_config;
   std::string new_config;
   std::string luts;
+  std::string into;
+  bool dry_run = false;
   std::string beside;
   std::string max_error;
 };
@@ -197,7 +201,8 @@ std::string command_of(const BakeOptions& o) {
   std::string text = "scotopic bake";
   for (const std::string& a : o.adaptations) text += " --adaptation " + a;
   if (!o.beside.empty()) text += " --beside " + o.beside;
-  text += " --model " + o.appearance.model + " --size " + o.size + " --config DIR";
+  text += " --model " + o.appearance.model + " --size " + o.size +
+          (o.into.empty() ? " --config DIR" : " --into CONFIG");
   return o.luts.empty() ? text : text + " --luts LUTS";
 }
 
@@ -218,7 +223,8 @@ void make_folder(const std::string& path) {
 
 int bake_config(const BakeOptions& o, const ColourConfig& config, const Console& console) {
   const std::vector<LookSpec> specs = specs_for_config(o, config);
-  const LookSet set = bake_set(specs, config, SCOTOPIC_VERSION, has_whole_ladder(specs));
+  LookSet set = bake_set(specs, config, SCOTOPIC_VERSION, has_whole_ladder(specs));
+  add_highlights(set, SCOTOPIC_VERSION);
   for (const BakedLook& look : set.looks) {
     check_error(o, look);
     console.note(said(look));
@@ -237,14 +243,47 @@ int bake_config(const BakeOptions& o, const ColourConfig& config, const Console&
   return static_cast<int>(ExitCode::done);
 }
 
+/// The config as it was stays beside the new one; an older such copy is never overwritten.
+void keep_original(const std::string& file, const std::string& text) {
+  const std::string copy = file + ".before_scotopic";
+  if (!fs::exists(copy)) write_text(copy, text);
+}
+
+int bake_into(const BakeOptions& o, const Console& console) {
+  const ColourConfig config = ColourConfig::from_file(o.into);
+  const std::vector<LookSpec> specs = specs_for_config(o, config);
+  const LookSet set = bake_set(specs, config, SCOTOPIC_VERSION, false);
+  for (const BakedLook& look : set.looks) check_error(o, look);
+  const MergedConfig merged = merge_looks(config, set.entries);
+  const std::string original = text_of(o.into);
+  if (merged.rewritten)
+    console.note(o.into + ": its layout is unusual: OpenColorIO writes the config anew, comments are lost");
+  if (o.dry_run) {
+    std::fputs(line_diff(original, merged.text).c_str(), stdout);
+    for (const TextFile& lut : set.luts) console.note("would write " + merged.lut_folder + "/" + lut.name);
+    return static_cast<int>(ExitCode::done);
+  }
+  make_folder(merged.lut_folder);
+  for (const TextFile& lut : set.luts) write_text(merged.lut_folder + "/" + lut.name, lut.text);
+  write_text(merged.lut_folder + "/MANIFEST", manifest_text(set, SCOTOPIC_VERSION, command_of(o)));
+  keep_original(o.into, original);
+  write_text(o.into, merged.text);
+  for (const BakedLook& look : set.looks) console.note(said(look));
+  console.result({{"config", o.into}, {"luts", merged.lut_folder}, {"looks", set.looks.size()}});
+  return static_cast<int>(ExitCode::done);
+}
+
 int run_bake(const BakeOptions& o) {
   const Console console(o.common);
-  if (o.output.empty() == o.new_config.empty())
-    throw Error(ExitCode::usage, "", "give -o FILE for one LUT, or --config DIR for a whole config");
+  if ((o.output.empty() ? 0 : 1) + (o.new_config.empty() ? 0 : 1) + (o.into.empty() ? 0 : 1) != 1)
+    throw Error(ExitCode::usage, "",
+                "give one of -o FILE (a LUT), --config DIR (a whole config), --into CONFIG");
+  if (o.dry_run && o.into.empty()) throw Error(ExitCode::usage, "", "--dry-run goes with --into");
   (void)edge_of(o);
   (void)adaptations_of(o);
   (void)operator_choice(o.appearance);
   if (!o.new_config.empty()) return bake_config(o, ColourConfig::own(), console);
+  if (!o.into.empty()) return bake_into(o, console);
   (void)format_of(o);
   return bake_files(o, ColourConfig::in_force(o.colour_config), console);
 }
@@ -260,7 +299,8 @@ void add_bake(CLI::App& program, Invocation& invocation) {
       "  scotopic bake --adaptation 0.1 -o street.clf\n"
       "  scotopic bake --adaptation 0.1 --size 65 --max-error 0.6 -o street.clf\n"
       "  scotopic bake --adaptation 0.01 --colorspace ACEScct -o moon.cube\n"
-      "  scotopic bake --adaptation ladder --beside kirk2011 --config looks/");
+      "  scotopic bake --adaptation ladder --beside kirk2011 --config looks/\n"
+      "  scotopic bake --adaptation 0.1 --adaptation 0.01 --into studio/config.ocio --dry-run");
   const auto add = [&](const char* name, std::string& value, const char* text, const char* kind) {
     return verb.add_option(name, value, text)->type_name(kind);
   };
@@ -273,7 +313,9 @@ void add_bake(CLI::App& program, Invocation& invocation) {
       "FILE");
   add("--config", o.new_config, "Write a whole config here: config.ocio, luts/", "NEW_DIR");
   add("--luts", o.luts, "With --config: the LUTs' folder, where it is not luts/ beside the config", "DIR");
-  add("--beside", o.beside, "With --config: the same looks by a second model, too", "MODEL");
+  add("--into", o.into, "Add the looks to this config; its former text is kept beside it", "STUDIO_CONFIG");
+  verb.add_flag("--dry-run", o.dry_run, "With --into: print what would change, write nothing");
+  add("--beside", o.beside, "With --config or --into: the same looks by a second model, too", "MODEL");
   add("--max-error", o.max_error, "Fail if the largest measured error exceeds this", "DE00");
   add_operator_options(verb, o.appearance);
   verb.remove_option(verb.get_option("--adaptation"));
