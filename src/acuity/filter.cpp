@@ -140,13 +140,32 @@ void serial_for(int count, const std::function<void(int)>& task) {
   for (int i = 0; i < count; ++i) task(i);
 }
 
+namespace {
+
+/// The part of the window that the tile needs.
+AcuityWindow cropped(const AcuityWindow& window, const AcuityTile& tile, int halo) {
+  AcuityWindow part = window;
+  part.x = std::max(window.x, tile.x - halo);
+  part.y = std::max(window.y, tile.y - halo);
+  part.width = std::min(window.x + window.width, tile.x + tile.width + halo) - part.x;
+  part.height = std::min(window.y + window.height, tile.y + tile.height + halo) - part.y;
+  const std::ptrdiff_t offset = (part.y - window.y) * window.stride + part.x - window.x;
+  part.r += offset;
+  part.g += offset;
+  part.b += offset;
+  return part;
+}
+
+}  // namespace
+
 void AcuityFilter::filter(const AcuityWindow& window, const AcuityTile& tile,
                           const ParallelFor& parallel_for) const {
   if (tile.width <= 0 || tile.height <= 0) return;
   acuity::require_window(window, tile, plan_->halo);
   if (plan_->identity) return plan_->copy(window, tile);
-  if (plan_->engine == AcuityEngine::window) return plan_->filter_window(window, tile, parallel_for);
-  plan_->filter_cells(window, tile, parallel_for);
+  const AcuityWindow needed = cropped(window, tile, plan_->halo);
+  if (plan_->engine == AcuityEngine::window) return plan_->filter_window(needed, tile, parallel_for);
+  plan_->filter_cells(needed, tile, parallel_for);
 }
 
 void AcuityFilter::Plan::copy(const AcuityWindow& window, const AcuityTile& tile) const {
