@@ -189,6 +189,12 @@ TEST(AdaptationProperties, the_mesopic_coefficient_is_the_fixed_point_of_mes2) {
       {{"mesopic", 0.1}, {"scotopic", 0.2}, {"photopic", 0.2}, {"a lamp's S/P", 0.3}});
 }
 
+TEST(AdaptationProperties, mes2_starts_from_a_half_where_that_decides) {
+  // At S/P .05 and .1 cd/m2 there are two fixed points; CIE 191 starts from m = .5, which leads to the upper.
+  EXPECT_NEAR(mesopic_state(0.1, 0.005).adaptation_coefficient, 0.3608, 1e-4);
+  EXPECT_EQ(mesopic_coefficient(0.1, 0.05), 0);
+}
+
 TEST(AdaptationProperties, mes2_is_a_number_at_every_pair_of_luminances_even_0) {
   for_all(
       seeds(),
