@@ -21,7 +21,7 @@ echo "look:  oiiotool --ociolook \"$look\""
 oiiotool --colorconfig "$config" "$night" \
   --ociolook:from=scene_linear:to=scene_linear "$look" -o demo/look.exr
 echo "agreement of the look with the operator, every pixel exposed to mid-grey:"
-"$scotopic" check "$config" --look "$look" --image "$night"
+"$scotopic" check "$config" "$look" --image "$night"
 
 # The same part of each, one exposure, highlights kept.
 for picture in "$night" demo/exact.exr demo/look.exr; do

@@ -90,7 +90,7 @@ std::optional<SceneStatistics> measure(PixelSource& source, const ImageLayout& l
                                        const ColourConfig& config, const OperatorChoice& choice,
                                        const KnownNumbers& known) {
   if (!needs_measurement(known, source.file())) return std::nullopt;
-  return measure_image(source, layout, config, choice.parameters);
+  return measure_image(source, layout, config, choice.parameters, choice.metering.region);
 }
 
 /// Whether pixels bring signals of their own beside RGB.
@@ -122,7 +122,7 @@ int run_apply(const ApplyOptions& options) {
   const KnownNumbers known = known_numbers(choice, *source, layout, console);
   const std::optional<SceneStatistics> statistics = measure(*source, layout, config, choice, known);
   const SceneNumbers numbers =
-      settle(known, statistics ? statistics->log_mean_luminance() : 0, source->file());
+      settle(known, statistics ? metered(*statistics, choice.metering) : 0, source->file());
   console.note(source->file() + ": " + describe(numbers));
   AppearanceParameters& parameters = choice.parameters;
   parameters.adaptation = numbers.adaptation;

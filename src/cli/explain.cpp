@@ -111,7 +111,11 @@ int run_explain(const ExplainOptions& options) {
   const KnownNumbers known = known_numbers(choice, *source, layout, console);
   (void)needs_measurement(known, source->file());
   const SceneStatistics statistics = measure_image(*source, layout, config, choice.parameters);
-  const SceneNumbers numbers = settle(known, statistics.log_mean_luminance(), source->file());
+  const bool part = !known.adaptation && choice.metering.region;
+  const double adapted =
+      metered(part ? measure_image(*source, layout, config, choice.parameters, choice.metering.region) : statistics,
+              choice.metering);
+  const SceneNumbers numbers = settle(known, adapted, source->file());
   choice.parameters.adaptation = numbers.adaptation;
   choice.parameters.white_luminance = numbers.white_luminance;
   const PlanRequest request_of_plan =

@@ -84,8 +84,8 @@ void add_operator_options(CLI::App& verb, OperatorOptions& o) {
   const auto add = [&](const char* name, std::string& value, const std::string& text, const char* kind) {
     verb.add_option(name, value, text)->type_name(kind)->group(group);
   };
-  add("--adaptation", o.adaptation, "Luminance the eye is adapted to, or auto: the picture's log-average",
-      "CDM2");
+  add("--adaptation", o.adaptation, "Luminance the eye is adapted to, or metered: auto (log-average), auto:median, auto:p90, auto:X,Y,W,H",
+      "CDM2|auto");
   add("--white-luminance", o.white_luminance,
       "What image value 1 stands for; overrides the file's whiteLuminance", "CDM2");
   add("--model", o.model, "filament2021 (default), kirk2011, safko2019", "NAME");
@@ -105,7 +105,8 @@ void add_operator_options(CLI::App& verb, OperatorOptions& o) {
 
 OperatorChoice understand(const OperatorOptions& o) {
   OperatorChoice out;
-  if (o.adaptation != "auto") out.adaptation = luminance_value("--adaptation", o.adaptation);
+  if (const std::optional<AdaptationMethod> metering = parse_adaptation_method(o.adaptation)) out.metering = *metering;
+  else out.adaptation = luminance_value("--adaptation", o.adaptation);
   if (!o.white_luminance.empty())
     out.white_luminance = luminance_value("--white-luminance", o.white_luminance);
   AppearanceParameters& p = out.parameters;

@@ -7,6 +7,7 @@
 
 #include "appearance/parameters.h"
 #include "cli/spectral_options.h"
+#include "cli/adaptation_method.h"
 #include "image/colour_config.h"
 
 namespace scotopic {
@@ -34,7 +35,8 @@ enum class AcuityWish { no, if_told, yes };
 /// As understood. Adaptation, white luminance and primaries in `parameters` are not set yet.
 struct OperatorChoice {
   AppearanceParameters parameters;
-  std::optional<double> adaptation;       ///< nullopt: auto
+  std::optional<double> adaptation;       ///< nullopt: auto, by `metering`
+  AdaptationMethod metering;
   std::optional<double> white_luminance;  ///< nullopt: the file's, or from the adaptation
   bool plan_effects = false;              ///< --effects auto
   AcuityWish acuity = AcuityWish::no;

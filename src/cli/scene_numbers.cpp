@@ -22,6 +22,7 @@ KnownNumbers known_numbers(const OperatorChoice& choice, const PixelSource& sour
                            const Console& console) {
   KnownNumbers known;
   known.adaptation = choice.adaptation;
+  known.metering = choice.metering.description;
   known.white_luminance = choice.white_luminance;
   const LightPicture& light = layout.light.front();
   const Picture& picture = source.pictures()[light.index];
@@ -46,17 +47,17 @@ bool needs_measurement(const KnownNumbers& known, const std::string& file) {
   return true;
 }
 
-SceneNumbers settle(const KnownNumbers& known, double log_average, const std::string& file) {
+SceneNumbers settle(const KnownNumbers& known, double metered, const std::string& file) {
   SceneNumbers out;
   const std::optional<double> unit = unit_of(known);
   if (known.adaptation) {
     out.adaptation = *known.adaptation;
     out.adaptation_source = "--adaptation";
   } else {
-    out.adaptation = log_average * unit.value();
-    out.adaptation_source = "auto: log-average of the picture";
+    out.adaptation = metered * unit.value();
+    out.adaptation_source = "auto: " + known.metering;
     if (!(out.adaptation > 0))
-      throw Error(ExitCode::input, file, "is black: it adapts the eye to nothing; give --adaptation");
+      throw Error(ExitCode::input, file, "is black where it is metered: it adapts the eye to nothing; give --adaptation");
   }
   out.white_luminance = unit.value_or(out.adaptation / middle_grey);
   out.white_luminance_source = known.white_luminance ? "--white-luminance"

@@ -23,19 +23,20 @@ struct KnownNumbers {
   std::optional<double> white_luminance;  ///< --white-luminance
   std::optional<double> file_unit;        ///< the file's own
   std::string file_unit_source;
+  std::string metering;                   ///< how the adaptation is metered, if it is
 };
 
 /// From the options and the file's header. A unit in the file that is no luminance is ignored, with a note.
 KnownNumbers known_numbers(const OperatorChoice& choice, const PixelSource& source, const ImageLayout& layout,
                            const Console& console);
 
-/// True if the picture's log-average luminance is needed. Error(usage) if that alone would not do: an average
+/// True if the adaptation is to be metered. Error(usage) if that alone would not do: an average
 /// in image values tells no luminance where nobody knows the unit.
 bool needs_measurement(const KnownNumbers& known, const std::string& file);
 
 /// The user's unit, else the file's, else La/.18: the scene's middle grey is what the eye is adapted to.
-/// `log_average` in image values, where needed; Error(input) if it is 0.
-SceneNumbers settle(const KnownNumbers& known, double log_average, const std::string& file);
+/// `metered` in image values, where needed; Error(input) if it is 0.
+SceneNumbers settle(const KnownNumbers& known, double metered, const std::string& file);
 
 /// "adaptation .1 cd/m2 (--adaptation), image value 1 is .55 cd/m2 (...)".
 std::string describe(const SceneNumbers& numbers);

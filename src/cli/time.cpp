@@ -99,7 +99,8 @@ Subject subject_of_image(const TimeOptions& options, OperatorChoice choice, cons
   const KnownNumbers known = known_numbers(choice, *source, layout, console);
   double log_average = 0;
   if (needs_measurement(known, source->file()))
-    log_average = measure_image(*source, layout, config, choice.parameters).log_mean_luminance();
+    log_average = metered(measure_image(*source, layout, config, choice.parameters, choice.metering.region),
+                          choice.metering);
   const SceneNumbers numbers = settle(known, log_average, source->file());
   console.note(source->file() + ": " + describe(numbers));
   Subject out;
@@ -134,7 +135,8 @@ void write_text(OutputFile& file, const std::string& text) {
 std::function<void(int, int)> progress_line(const TimeOptions& options) {
   if (isatty(STDERR_FILENO) == 0 || options.common.quiet || options.common.json) return nullptr;
   return [](int round, int rounds) {
-    std::fputs(round < rounds ? fmt::format("\rround {} of {} ", round + 1, rounds).c_str() : "\r\x1b[K", stderr);
+    std::fputs(round < rounds ? fmt::format("\rround {} of {} ", round + 1, rounds).c_str() : "\r\x1b[K",
+               stderr);
   };
 }
 
@@ -143,22 +145,25 @@ int run_time(const TimeOptions& options) {
   OperatorChoice choice = understand(options.appearance);
   const auto pixels = static_cast<std::size_t>(
       number_in("--pixels", options.pixels, 1 << 16, 1 << 28, "a count of 65536 to 268435456"));
-  const auto rounds = static_cast<int>(number_in("--rounds", options.rounds, 1, 1000, "a count of 1 to 1000"));
+  const auto rounds =
+      static_cast<int>(number_in("--rounds", options.rounds, 1, 1000, "a count of 1 to 1000"));
   std::optional<OutputFile> plot;
   if (!options.plot.empty()) plot.emplace(options.plot);
   const ColourConfig config = ColourConfig::in_force(options.image.config);
   set_primaries(choice, config);
   set_threads(options.common.threads);
-  Subject subject = options.input.empty() ? subject_by_formula(choice)
-                                          : subject_of_image(options, choice, config, console);
+  Subject subject =
+      options.input.empty() ? subject_by_formula(choice) : subject_of_image(options, choice, config, console);
   const TimedPicture picture = repeated(subject.picture, pixels);
   const int threads = options.common.threads > 0
                           ? options.common.threads
                           : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 
-  std::vector<Contender> contenders = operator_contenders(subject.parameters, picture, subject.colours, threads);
-  for (auto& more : {rod_contenders(subject.parameters, picture, subject.colours),
-                     spectral_contenders(subject.parameters), acuity_contenders(subject.parameters, subject.picture)})
+  std::vector<Contender> contenders =
+      operator_contenders(subject.parameters, picture, subject.colours, threads);
+  for (auto& more :
+       {rod_contenders(subject.parameters, picture, subject.colours), spectral_contenders(subject.parameters),
+        acuity_contenders(subject.parameters, subject.picture)})
     contenders.insert(contenders.end(), more.begin(), more.end());
 
   TimeConditions& c = subject.conditions;
@@ -170,8 +175,10 @@ int run_time(const TimeOptions& options) {
   c.load = system_load();
   if (plot)
     write_text(*plot, pareto_svg(rows, "operator", fmt::format("{}; OpenColorIO {}", c.machine, c.ocio)));
-  if (options.csv) std::fputs(time_csv(rows).c_str(), stdout);
-  else if (!console.json()) std::fputs(time_text(rows, c).c_str(), stdout);
+  if (options.csv)
+    std::fputs(time_csv(rows).c_str(), stdout);
+  else if (!console.json())
+    std::fputs(time_text(rows, c).c_str(), stdout);
   console.result(time_json(rows, c));
   return static_cast<int>(ExitCode::done);
 }
@@ -180,9 +187,11 @@ int run_time(const TimeOptions& options) {
 
 void add_time(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<TimeOptions>();
-  CLI::App& verb = *program.add_subcommand("time", "What accuracy costs: every way to compute, its error and its time");
+  CLI::App& verb =
+      *program.add_subcommand("time", "What accuracy costs: every way to compute, its error and its time");
   verb.footer("Example: scotopic time night.exr --adaptation 0.05 --plot cost.svg");
-  verb.add_option("input", options->input, "Image to time on; else a night by formula, adaptation 0.1 unless given")
+  verb.add_option("input", options->input,
+                  "Image to time on; else a night by formula, adaptation 0.1 unless given")
       ->type_name("IN");
   verb.add_option("--pixels", options->pixels, "Times are taken on so many, the image repeated")
       ->type_name("N")
@@ -190,7 +199,8 @@ void add_time(CLI::App& program, Invocation& invocation) {
   verb.add_option("--rounds", options->rounds, "Each way in turn, so often; medians are shown")
       ->type_name("N")
       ->capture_default_str();
-  verb.add_option("--plot", options->plot, "Error against time of the operator's ways, as SVG")->type_name("FILE");
+  verb.add_option("--plot", options->plot, "Error against time of the operator's ways, as SVG")
+      ->type_name("FILE");
   verb.add_flag("--csv", options->csv, "Comma-separated values in place of the table");
   add_operator_options(verb, options->appearance);
   add_input_options(verb, options->image);

@@ -156,6 +156,20 @@ class PictureRun {
   std::vector<std::size_t> others_;  // channel of the source for each output channel after R, G, B
 };
 
+/// What both windows hold; empty where they do not meet.
+Window common(const Window& a, const Window& b) {
+  const Window both = {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+  return both.width() > 0 && both.height() > 0 ? both : Window{a.x0, a.y0, a.x0, a.y0};
+}
+
+PixelRows columns(PixelRows rows, std::uint64_t first, int count) {
+  for (float** plane : {&rows.r, &rows.g, &rows.b}) *plane += first;
+  for (const float** plane : {&rows.cone_l, &rows.cone_m, &rows.cone_s, &rows.rod})
+    if (*plane) *plane += first;
+  rows.count = static_cast<std::size_t>(count);
+  return rows;
+}
+
 std::int64_t all_rows(const ImageLayout& layout) {
   std::int64_t rows = 0;
   for (const OutputPicture& out : layout.outputs) rows += out.copy ? 0 : out.picture.data.height();
@@ -172,7 +186,7 @@ void set_threads(int count) {
 }
 
 SceneStatistics measure_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-                              const AppearanceParameters& parameters) {
+                              const AppearanceParameters& parameters, const std::optional<Window>& region) {
   std::uint64_t pixels = 0;
   for (const LightPicture& light : layout.light) {
     const Window& w = source.pictures()[light.index].data;
@@ -186,7 +200,9 @@ SceneStatistics measure_image(PixelSource& source, const ImageLayout& layout, co
     if (picture.level_x != 0 || picture.level_y != 0) continue;
     const LightReader reader(light.channels, config, light.space);
     const auto width = static_cast<std::uint64_t>(picture.data.width());
+    const Window meter_in = common(picture.data, region.value_or(picture.data));
     each_band(picture, false, [&](int y0, int rows) {
+      if (y0 >= meter_in.y1 || y0 + rows <= meter_in.y0) return;
       Band band;
       source.read(light.index, y0, rows, band);
       // Few large parts, added in their order, so that samples do not depend on which thread was first.
@@ -195,10 +211,12 @@ SceneStatistics measure_image(PixelSource& source, const ImageLayout& layout, co
       parallel_rows(rows, part_rows, [&](int first, int last) {
         LightRow row_light(static_cast<std::size_t>(width));
         for (int row = first; row < last; ++row) {
+          if (y0 + row < meter_in.y0 || y0 + row >= meter_in.y1) continue;
           reader.read(band, row, row_light);
           const auto y = static_cast<std::uint64_t>(y0 - picture.data.y0 + row);
-          meter.measure(row_light.pixels(reader.receptors()), before + y * width,
-                        parts[static_cast<std::size_t>(row / part_rows)]);
+          const auto x = static_cast<std::uint64_t>(meter_in.x0 - picture.data.x0);
+          meter.measure(columns(row_light.pixels(reader.receptors()), x, meter_in.width()),
+                        before + y * width + x, parts[static_cast<std::size_t>(row / part_rows)]);
         }
       });
       for (const SceneStatistics& part : parts) all.add(part);

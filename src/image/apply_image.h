@@ -69,9 +69,10 @@ using RowOperator = std::function<void(const PixelRows& rows, std::uint8_t* touc
 /// Called after each band with rows done and rows in all.
 using Progress = std::function<void(std::int64_t done, std::int64_t total)>;
 
-/// One pass over the light of all pictures (full resolution only).
+/// One pass over the light of all pictures (full resolution only), or over a region of each.
 SceneStatistics measure_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-                              const AppearanceParameters& parameters);
+                              const AppearanceParameters& parameters,
+                              const std::optional<Window>& region = std::nullopt);
 
 /// Writes the whole output. Without `apply` (empty) nothing is called for: where nothing else changes values either,
 /// the file's own bytes go through. `acuity` is applied last, to each picture by itself. Same bytes for any number of

@@ -1,0 +1,121 @@
+// The plan as a user meets it: what is skipped changes nothing, and is said.
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "cli/run_program.h"
+
+namespace scotopic {
+namespace {
+
+class Plan : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = test::work_folder();
+    test::write_picture(path("in.exr"), 96, 80);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+
+  // Half values of R, G, B, one plane after another.
+  std::vector<std::uint16_t> pixels(const std::string& name) const {
+    Imf::InputFile file(path(name).c_str());
+    const Imath::Box2i window = file.header().dataWindow();
+    const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
+    const auto height = static_cast<std::size_t>(window.max.y - window.min.y + 1);
+    std::vector<std::uint16_t> values(3 * width * height);
+    Imf::FrameBuffer buffer;
+    for (std::size_t c = 0; c < 3; ++c)
+      buffer.insert(std::string(1, "RGB"[c]), Imf::Slice(Imf::HALF, reinterpret_cast<char*>(values.data() + c * width * height), 2, 2 * width));
+    file.setFrameBuffer(buffer);
+    file.readPixels(window.min.y, window.max.y);
+    return values;
+  }
+  test::Outcome apply(const std::string& out, std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), {"apply", path("in.exr"), "-o", path(out)});
+    const test::Outcome outcome = test::run_program(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome;
+  }
+
+  std::string folder_;
+};
+
+TEST_F(Plan, a_scene_that_calls_for_nothing_keeps_every_bit_and_says_so) {
+  for (const char* adaptation : {"5", "5.001", "1000"}) {
+    const test::Outcome outcome = apply("out.exr", {"--adaptation", adaptation});
+    EXPECT_NE(outcome.err.find("nothing to do; skipped shift (the eye is adapted to"), std::string::npos) << outcome.err;
+    EXPECT_EQ(pixels("out.exr"), pixels("in.exr")) << adaptation;
+  }
+  EXPECT_EQ(apply("quiet.exr", {"--adaptation", "5", "-q"}).err, "");
+}
+
+TEST_F(Plan, skipping_and_not_skipping_give_the_same_bits_around_the_limit) {
+  for (const char* adaptation : {"4.999", "5", "5.001", "0.5"})
+    for (const char* threads : {"1", "3"}) {
+      apply("auto.exr", {"--adaptation", adaptation, "--effects", "auto", "-q", "--threads", threads});
+      apply("all.exr", {"--adaptation", adaptation, "--effects", "all", "-q", "--threads", threads});
+      EXPECT_EQ(pixels("auto.exr"), pixels("all.exr")) << adaptation;
+    }
+}
+
+TEST_F(Plan, effects_that_are_not_listed_do_not_run) {
+  apply("none.exr", {"--adaptation", "0.01", "--effects", "none", "-q"});
+  EXPECT_EQ(pixels("none.exr"), pixels("in.exr"));
+  const test::Outcome outcome = apply("chroma.exr", {"--adaptation", "0.01", "--effects", "chroma"});
+  EXPECT_NE(outcome.err.find(": chroma\n"), std::string::npos) << outcome.err;
+  EXPECT_NE(pixels("chroma.exr"), pixels("in.exr"));
+}
+
+TEST_F(Plan, acuity_runs_only_where_the_picture_holds_more_than_the_eye_resolves) {
+  // At .01 cd/m2 the eye resolves 5.31 cycles a degree.
+  apply("plain.exr", {"--adaptation", "0.01", "-q"});
+  const test::Outcome coarse = apply("coarse.exr", {"--adaptation", "0.01", "--ppd", "10.6"});
+  EXPECT_NE(coarse.err.find("skipped acuity"), std::string::npos) << coarse.err;
+  EXPECT_EQ(pixels("coarse.exr"), pixels("plain.exr"));
+  const test::Outcome fine = apply("fine.exr", {"--adaptation", "0.01", "--ppd", "60"});
+  EXPECT_EQ(fine.err.find("skipped"), std::string::npos) << fine.err;
+  EXPECT_NE(pixels("fine.exr"), pixels("plain.exr"));
+}
+
+TEST_F(Plan, adaptation_is_metered_the_way_it_is_asked_for) {
+  const auto adaptation = [&](const char* method) {
+    const test::Outcome outcome = apply("out.exr", {"--adaptation", method, "--white-luminance", "1", "--json", "-q"});
+    return nlohmann::json::parse(outcome.out)["applied"]["scotopic:adaptation"].get<double>();
+  };
+  const double p10 = adaptation("auto:p10"), median = adaptation("auto:median"), p90 = adaptation("auto:p90");
+  EXPECT_LT(p10, median);
+  EXPECT_LT(median, p90);
+  EXPECT_EQ(median, adaptation("auto:p50"));
+  EXPECT_GT(adaptation("auto"), p10);
+  EXPECT_LT(adaptation("auto"), p90);
+  EXPECT_EQ(adaptation("auto:0,0,96,80"), adaptation("auto"));
+  EXPECT_NE(adaptation("auto:0,0,10,10"), adaptation("auto"));
+}
+
+TEST_F(Plan, explain_tells_every_effect_with_number_threshold_and_reason) {
+  const test::Outcome outcome = test::run_program({"explain", path("in.exr"), "--adaptation", "0.01", "--ppd", "60", "--json",
+                                                   "--plot", path("light.svg")});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const nlohmann::json report = nlohmann::json::parse(outcome.out);
+  for (const char* effect : {"shift", "luminance", "chroma", "acuity"}) {
+    const nlohmann::json& e = report["effects"][effect];
+    EXPECT_TRUE(e["runs"].get<bool>()) << effect;
+    EXPECT_FALSE(e["reason"].get<std::string>().empty());
+    EXPECT_GT(e["threshold"].get<double>(), 0);
+  }
+  for (const char* effect : {"glare", "noise", "time"}) EXPECT_FALSE(report["effects"][effect]["simulated"].get<bool>());
+  EXPECT_GT(report["effects"]["shift"]["largestDifference"].get<double>(), 0.5);
+  double share = report["darkShare"].get<double>();
+  for (const nlohmann::json& bar : report["histogram"]) share += bar["share"].get<double>();
+  EXPECT_NEAR(share, 1, 1e-9);
+  EXPECT_GT(std::filesystem::file_size(path("light.svg")), 500u);
+}
+
+}  // namespace
+}  // namespace scotopic
