@@ -66,7 +66,8 @@ HWY_INLINE Part measured(const Constants& c, const CellPixel* pixels, int begin,
 constexpr int clusters_at_most = 32;
 
 /// Divides the part that most needs it at its mean until all are narrow, and appends the clusters.
-HWY_INLINE void append_clusters(const Constants& c, CellPixel* pixels, int count, Moments& moments) {
+HWY_INLINE void append_clusters(const Constants& c, CellPixel* pixels, int count, Moments& flat,
+                                Moments& spread) {
   Part parts[clusters_at_most];
   int used = 1, next = 0;
   parts[0] = measured(c, pixels, 0, count);
@@ -92,8 +93,10 @@ HWY_INLINE void append_clusters(const Constants& c, CellPixel* pixels, int count
   for (int i = 0; i < used; ++i) {
     const Part& part = parts[i];
     const Quad &lab = part.lab_x, &rgb = part.rgb_y, &v = part.variance;
-    moments.add({lab[3], rgb[3], static_cast<float>(part.end - part.begin), lab[0], lab[1], lab[2], rgb[0],
-                 rgb[1], rgb[2], v[0], v[1], v[2]});
+    const bool even = std::max({v[0], v[1], v[2]}) <= flat_variance;
+    (even ? flat : spread)
+        .add({lab[3], rgb[3], static_cast<float>(part.end - part.begin), lab[0], lab[1], lab[2], rgb[0],
+              rgb[1], rgb[2], v[0], v[1], v[2]});
   }
 }
 
@@ -110,6 +113,7 @@ class RowBuilder {
   const float* light(const float* of, int y) const {
     return of + (first_y_ + y - window_.y) * window_.stride;
   }
+  void begin_cell(CellRow& out, int flat_more);
   int add_pairs(int cell, CellRow& out);
   void add_cell(int cell);
 
@@ -118,7 +122,7 @@ class RowBuilder {
   int first_y_, rows_, first_cell_, last_cell_;
   std::unique_ptr<float[]> planes_;  // scaled CIELAB, row by row
   std::vector<CellPixel> pixels_;
-  Moments moments_;
+  Moments flat_, spread_;
 };
 
 RowBuilder::RowBuilder(const Constants& c, const AcuityWindow& window, int row)
@@ -131,7 +135,8 @@ RowBuilder::RowBuilder(const Constants& c, const AcuityWindow& window, int row)
       planes_(std::make_unique_for_overwrite<float[]>(3 * static_cast<std::size_t>(window.width) *
                                                       static_cast<std::size_t>(rows_))),
       pixels_(static_cast<std::size_t>(c.cell * c.cell)),
-      moments_((last_cell_ - first_cell_ + 1) * std::min(c.most_clusters, c.cell * c.cell)) {
+      flat_((last_cell_ - first_cell_ + 1) * std::min(c.most_clusters, c.cell * c.cell)),
+      spread_((last_cell_ - first_cell_ + 1) * std::min(c.most_clusters, c.cell * c.cell)) {
   for (int y = 0; y < rows_; ++y) {
     float* lab[3] = {plane(0, y), plane(1, y), plane(2, y)};
     lab_of_row(c, light(window.r, y), light(window.g, y), light(window.b, y), window.width, lab);
@@ -139,16 +144,22 @@ RowBuilder::RowBuilder(const Constants& c, const AcuityWindow& window, int row)
 }
 
 void RowBuilder::build(CellRow& out) {
-  out.first.clear();
   for (int cell = first_cell_; cell <= last_cell_;) {
     const int done = add_pairs(cell, out);
     cell += done;
     if (done > 0) continue;
-    out.first.push_back(static_cast<std::uint32_t>(moments_.count()));
+    begin_cell(out, 0);
     add_cell(cell++);
   }
-  out.first.push_back(static_cast<std::uint32_t>(moments_.count()));
-  moments_.finish(c_, out);
+  begin_cell(out, 0);
+  flat_.finish(c_, true, out.flat);
+  spread_.finish(c_, false, out.spread);
+}
+
+/// The next cell begins behind the clusters there are, and `flat_more` flat ones.
+void RowBuilder::begin_cell(CellRow& out, int flat_more) {
+  out.flat.first.push_back(static_cast<std::uint32_t>(flat_.count() + flat_more));
+  out.spread.first.push_back(static_cast<std::uint32_t>(spread_.count()));
 }
 
 /// Cells of 2x2 pixels, as many as there are lanes at once: most need no division. Returns how many were
@@ -162,16 +173,16 @@ int RowBuilder::add_pairs(int cell, CellRow& out) {
   const float* const planes[2][6] = {
       {plane(0, 0), plane(1, 0), plane(2, 0), light(window_.r, 0), light(window_.g, 0), light(window_.b, 0)},
       {plane(0, 1), plane(1, 1), plane(2, 1), light(window_.r, 1), light(window_.g, 1), light(window_.b, 1)}};
-  const bool all_narrow = squares.measure(c_, planes, x, 2 * cell, first_y_);
+  squares.measure(c_, planes, x, 2 * cell, first_y_);
   for (int i = 0; i < lanes; ++i) {
-    out.first.push_back(static_cast<std::uint32_t>(moments_.count() + (all_narrow ? i : 0)));
-    if (all_narrow) continue;
-    if (squares.narrow[i])
-      moments_.add(squares.moments(i));
+    begin_cell(out, squares.all_flat ? i : 0);
+    if (squares.all_flat) continue;
+    if (squares.narrow[i] != 0.0f)
+      (squares.flat[i] != 0.0f ? flat_ : spread_).add(squares.moments(i));
     else
       add_cell(cell + i);
   }
-  if (all_narrow) moments_.add_all(squares);
+  if (squares.all_flat) flat_.add_all(squares);
   return lanes;
 }
 
@@ -189,7 +200,7 @@ void RowBuilder::add_cell(int cell) {
       pixel.rgb_y = Quad{red[x], green[x], blue[x], static_cast<float>(first_y_ + y)};
     }
   }
-  if (count > 0) append_clusters(c_, pixels_.data(), count, moments_);
+  if (count > 0) append_clusters(c_, pixels_.data(), count, flat_, spread_);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Filters from cells: each pixel sums the clusters around it. 4x4 pixels at a time, on the image's own grid.
+// Filters from cells: each pixel sums the clusters around it. 8x4 or 8x8 pixels at a time, on
+// the image's own grid.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "acuity/cells_filter.cpp"
 #include <hwy/foreach_target.h>
@@ -27,24 +28,26 @@ using V = Vector;
 /// and drops out of the mean, so two products are left, and what c's own |c|^2 leaves of u.
 class ClusterList {
  public:
-  static constexpr int near_u = cluster_fields, fields = cluster_fields + 1;
+  static constexpr int near_u = cluster_fields;
   // Not a multiple of 4 KiB: the fields of a cluster must not share one set of the cache.
   static constexpr std::ptrdiff_t stride = list_capacity + 16;
 
-  ClusterList() : values_(std::make_unique_for_overwrite<float[]>(stride * fields)) { clear(); }
+  explicit ClusterList(int fields)
+      : fields_(fields), values_(std::make_unique_for_overwrite<float[]>(stride * (cluster_fields + 1))) {}
 
   int count() const { return count_; }
   const float* values() const { return values_.get(); }
   void clear() { count_ = 0; }
-  void append(const Constants& c, const CellRow& row, std::uint32_t begin, std::uint32_t end, float x,
+  void append(const Constants& c, const Clusters& row, std::uint32_t begin, std::uint32_t end, float x,
               float y);
 
  private:
+  int fields_;  // that are used, near_u besides
   int count_ = 0;
   std::unique_ptr<float[]> values_;
 };
 
-HWY_INLINE void ClusterList::append(const Constants& c, const CellRow& row, std::uint32_t begin,
+HWY_INLINE void ClusterList::append(const Constants& c, const Clusters& row, std::uint32_t begin,
                                     std::uint32_t end, float x, float y) {
   const D d;
   const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
@@ -59,7 +62,7 @@ HWY_INLINE void ClusterList::append(const Constants& c, const CellRow& row, std:
     hn::StoreU(hn::Mul(twice, dx), d, to + cluster_x * stride);
     hn::StoreU(hn::Mul(twice, dy), d, to + cluster_y * stride);
     hn::StoreU(hn::NegMulAdd(square, scale, hn::Set(d, 1.0f)), d, to + near_u * stride);
-    for (int f = cluster_weight; f < cluster_fields; ++f)
+    for (int f = cluster_weight; f < fields_; ++f)
       hn::StoreU(hn::LoadU(d, from + f * row.stride), d, to + f * stride);
     count_ += static_cast<int>(std::min(lanes, end - i));
   }
@@ -100,34 +103,41 @@ struct Pixels {
 
 HWY_INLINE V field(const float* cluster, int f) { return hn::Set(D(), cluster[f * ClusterList::stride]); }
 
-/// How far pixels are from a cluster in channel `i`, its gain counted.
+/// How far a cluster is from pixels in channel `i`, its gain counted.
+template <bool flat>
 HWY_INLINE Wide apart(const float* cluster, int i, Wide own) {
-  const V root = field(cluster, cluster_root + i), mean = field(cluster, cluster_lab + i);
-  return each([&](V v) HWY_ATTR { return hn::MulSub(v, root, mean); }, own);
+  const V mean = field(cluster, cluster_lab + i);
+  if constexpr (flat) return sub_from(own, mean);
+  const V root = field(cluster, cluster_root + i);
+  return each([&](V v) HWY_ATTR { return hn::NegMulAdd(v, root, mean); }, own);
 }
 
 /// What a cluster would change each pixel's RGB to, less what it is: its mean, moved towards the pixel as the
 /// range kernel moves it within the cluster.
+template <bool flat>
 HWY_INLINE Wide light_change(const float* cluster, int i, Wide l, Wide a, Wide b, Wide own) {
-  const int slope = cluster_slope + 3 * i;
   const Wide mean = sub_from(own, field(cluster, cluster_light + i));
+  if constexpr (flat) return mean;
+  const int slope = cluster_slope + 3 * i;
   return scaled_add(l, field(cluster, slope),
                     scaled_add(a, field(cluster, slope + 1), scaled_add(b, field(cluster, slope + 2), mean)));
 }
 
-/// mean - pixel = -difference * root, once the range kernel's gain is counted.
+/// Mean less pixel, the range kernel's gain counted.
+template <bool flat>
 HWY_INLINE Wide lab_change(const float* cluster, int i, Wide difference) {
-  return scaled(difference, hn::Neg(field(cluster, cluster_root + i)));
+  if constexpr (flat) return difference;
+  return scaled(difference, field(cluster, cluster_root + i));
 }
 
-/// All the clusters of the list, seen from the pixels.
-template <AcuitySpace space>
-HWY_INLINE Sums sum_clusters(const ClusterList& list, const Pixels& p) {
-  const Wide zero = from_place([&](int) HWY_ATTR { return hn::Zero(D()); });
-  Wide x = zero, y = zero, z = zero, total = zero;
+/// `sums` and all the clusters of the list, seen from the pixels.
+template <AcuitySpace space, bool flat>
+HWY_INLINE Sums sum_clusters(const ClusterList& list, const Pixels& p, Sums sums) {
+  Wide x = sums.x, y = sums.y, z = sums.z, total = sums.total;
   const float* end = list.values() + list.count();
   for (const float* cluster = list.values(); cluster != end; ++cluster) {
-    const Wide l = apart(cluster, 0, p.l), a = apart(cluster, 1, p.a), b = apart(cluster, 2, p.b);
+    const Wide l = apart<flat>(cluster, 0, p.l), a = apart<flat>(cluster, 1, p.a),
+               b = apart<flat>(cluster, 2, p.b);
     const V near = hn::MulAdd(p.x, field(cluster, cluster_x), field(cluster, ClusterList::near_u));
     const V to_y = field(cluster, cluster_y);
     const Wide u = each([&](V v) HWY_ATTR { return hn::MulAdd(v, to_y, near); }, p.y);
@@ -135,17 +145,22 @@ HWY_INLINE Sums sum_clusters(const ClusterList& list, const Pixels& p) {
     const Wide w = scaled(weights(rest), field(cluster, cluster_weight));
     total = add(total, w);
     if constexpr (space == AcuitySpace::lab) {
-      x = mul_add(w, lab_change(cluster, 0, l), x);
-      y = mul_add(w, lab_change(cluster, 1, a), y);
-      z = mul_add(w, lab_change(cluster, 2, b), z);
+      x = mul_add(w, lab_change<flat>(cluster, 0, l), x);
+      y = mul_add(w, lab_change<flat>(cluster, 1, a), y);
+      z = mul_add(w, lab_change<flat>(cluster, 2, b), z);
     } else {
-      x = mul_add(w, light_change(cluster, 0, l, a, b, p.red), x);
-      y = mul_add(w, light_change(cluster, 1, l, a, b, p.green), y);
-      z = mul_add(w, light_change(cluster, 2, l, a, b, p.blue), z);
+      x = mul_add(w, light_change<flat>(cluster, 0, l, a, b, p.red), x);
+      y = mul_add(w, light_change<flat>(cluster, 1, l, a, b, p.green), y);
+      z = mul_add(w, light_change<flat>(cluster, 2, l, a, b, p.blue), z);
     }
   }
   return {x, y, z, total};
 }
+
+/// The clusters of the cells that a block's pixels see.
+struct Seen {
+  ClusterList flat{flat_cluster_fields}, spread{cluster_fields};
+};
 
 /// Changes `lanes` pixels of the block from `at` on by their sums.
 template <AcuitySpace space>
@@ -168,7 +183,7 @@ HWY_INLINE void finish(const Constants& c, Three<V> sums, V total, Three<V> lab,
 }
 
 template <AcuitySpace space, int height>
-HWY_INLINE void filter_block(const Constants& c, const ClusterList& list, const Places<height>& places,
+HWY_INLINE void filter_block(const Constants& c, const Seen& seen, const Places<height>& places,
                              Block<height>& block) {
   const D d;
   const int lanes = static_cast<int>(hn::Lanes(d));
@@ -194,7 +209,9 @@ HWY_INLINE void filter_block(const Constants& c, const ClusterList& list, const 
     p.l = convert(&Three<V>::x);
     p.a = convert(&Three<V>::y);
     p.b = convert(&Three<V>::z);
-    const Sums s = sum_clusters<space>(list, p);
+    const Wide zero = from_place([&](int) HWY_ATTR { return hn::Zero(d); });
+    const Sums flat = sum_clusters<space, true>(seen.flat, p, {zero, zero, zero, zero});
+    const Sums s = sum_clusters<space, false>(seen.spread, p, flat);
     float* out = block.rgb[0] + i;
     finish<space>(c, {s.x.a, s.y.a, s.z.a}, s.total.a, {p.l.a, p.a.a, p.b.a}, out, area);
 #if HWY_TARGET <= HWY_AVX3
@@ -262,23 +279,28 @@ void filter_block_row(const Constants& c, const AcuityWindow& window, const Acui
                       const CellRow* const* rows, int first_row, int row_count) {
   const double middle_x = 0.5 * (block_width - 1), middle_y = y + 0.5 * (height - 1);
   const std::vector<Reach> disc = reaches(c, middle_y, rows, first_row, row_count);
-  ClusterList list;
+  Seen seen;
   const Places<height> places;
   Block<height> block;
   const int first_cell = window.x / c.cell, last_cell = (window.x + window.width - 1) / c.cell;
   for (int x = tile.x / block_width * block_width; x < tile.x + tile.width; x += block_width) {
     const double centre = (x + middle_x - 0.5 * (c.cell - 1)) / c.cell;
-    list.clear();
+    seen.flat.clear();
+    seen.spread.clear();
     for (const Reach& reach : disc) {
       const int begin = std::max(static_cast<int>(std::ceil(centre - reach.half)), first_cell);
       const int end = std::min(static_cast<int>(std::floor(centre + reach.half)), last_cell) + 1;
       if (begin >= end) continue;
-      const std::uint32_t* first = reach.row->first.data() - first_cell;
-      list.append(c, *reach.row, first[begin], first[end], static_cast<float>(x + middle_x),
-                  static_cast<float>(middle_y));
+      const auto append = [&](const Clusters& clusters, ClusterList& list) {
+        const std::uint32_t* first = clusters.first.data() - first_cell;
+        list.append(c, clusters, first[begin], first[end], static_cast<float>(x + middle_x),
+                    static_cast<float>(middle_y));
+      };
+      append(reach.row->flat, seen.flat);
+      append(reach.row->spread, seen.spread);
     }
     load_block(window, tile, x, y, block);
-    filter_block<space>(c, list, places, block);
+    filter_block<space>(c, seen, places, block);
     store_block(block, x, y, tile);
   }
 }

@@ -43,23 +43,30 @@ enum ClusterField {
   cluster_x,  ///< centroid in the image, pixels
   cluster_y,
   cluster_weight,                   ///< count * sqrt(gain_l gain_a gain_b)
-  cluster_root,                     ///< 3: sqrt(gain) of L, a, b
-  cluster_lab = cluster_root + 3,   ///< 3: mean scaled CIELAB times sqrt(gain)
+  cluster_lab,                      ///< 3: mean scaled CIELAB times sqrt(gain)
   cluster_light = cluster_lab + 3,  ///< 3: mean RGB
+  flat_cluster_fields = cluster_light + 3,
+  cluster_root = flat_cluster_fields,  ///< 3: sqrt(gain) of L, a, b
   cluster_slope =
-      cluster_light + 3,  ///< 3x3: change of RGB with L, a, b times 2 weight_end variance sqrt(gain)
+      cluster_root + 3,  ///< 3x3: change of RGB with L, a, b times -2 weight_end variance sqrt(gain)
   cluster_fields = cluster_slope + 9,
 };
 
 /// Clusters that a block may see at most; Constants::most_clusters is chosen so that it suffices.
 inline constexpr int list_capacity = 16384;
 
-/// The cells of one row of the image-wide grid that a window touches, left to right. Field f of cluster i is
-/// values[f * stride + i]; 16 floats beyond a field's end may be read.
-struct CellRow {
+/// Clusters of a row of cells, left to right. Field f of cluster i is values[f * stride + i]; 16 floats
+/// beyond a field's end may be read.
+struct Clusters {
   std::ptrdiff_t stride = 0;
   std::unique_ptr<float[]> values;
   std::vector<std::uint32_t> first;  ///< cell i of the row holds clusters first[i] ... first[i+1] - 1
+};
+
+/// The cells of one row of the image-wide grid that a window touches. Most clusters are so alike that their
+/// roots count as 1 and their slopes as 0: apart from the others they cost less.
+struct CellRow {
+  Clusters flat, spread;
 };
 
 /// Image rows with `margin` absent pixels left and right: for each row six planes of `stride` floats, scaled

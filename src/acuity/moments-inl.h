@@ -28,10 +28,15 @@ enum Moment {
   moment_count = variance_lab + 3
 };
 
+/// Scaled: under a hundredth of the range kernel's variance in L, a and b, a cluster is flat.
+constexpr float flat_variance = static_cast<float>(0.01 * 0.5 / weight_end);
+
 /// Moments of as many squares of 2x2 pixels as there are lanes.
 struct Squares {
   HWY_ALIGN float values[moment_count][16];
   HWY_ALIGN float narrow[16];  // 1: all four pixels are there, and alike enough for one cluster
+  HWY_ALIGN float flat[16];    // 1: so alike that it counts as flat
+  bool all_flat;
 
   std::array<float, moment_count> moments(int i) const {
     std::array<float, moment_count> m;
@@ -39,16 +44,15 @@ struct Squares {
     return m;
   }
 
-  /// `planes`: L, a, b, R, G, B of two rows, from column `column`, which is image_x in the image. True if all
-  /// are narrow.
-  bool measure(const Constants& c, const float* const (&planes)[2][6], int column, int image_x, int image_y);
+  /// `planes`: L, a, b, R, G, B of two rows, from column `column`, which is image_x in the image.
+  void measure(const Constants& c, const float* const (&planes)[2][6], int column, int image_x, int image_y);
 };
 
-HWY_INLINE bool Squares::measure(const Constants& c, const float* const (&planes)[2][6], int column,
+HWY_INLINE void Squares::measure(const Constants& c, const float* const (&planes)[2][6], int column,
                                  int image_x, int image_y) {
   const Lanes d;
   const Vector quarter = hn::Set(d, 0.25f);
-  auto alike = hn::Eq(quarter, quarter);
+  auto alike = hn::Eq(quarter, quarter), even = alike;
   for (int k = 0; k < 6; ++k) {
     Vector p0, p1, p2, p3;
     hn::LoadInterleaved2(d, planes[0][k] + column, p0, p1);
@@ -63,6 +67,7 @@ HWY_INLINE bool Squares::measure(const Constants& c, const float* const (&planes
         hn::Mul(hn::Add(hn::Add(hn::Add(square(p0), square(p1)), square(p2)), square(p3)), quarter);
     hn::Store(variance, d, values[variance_lab + k]);
     alike = hn::And(alike, hn::Le(variance, hn::Set(d, c.split_variance)));
+    even = hn::And(even, hn::Le(variance, hn::Set(d, flat_variance)));
     if (k > 0) continue;
     const Vector darkest_absent = hn::Max(hn::Max(p0, p1), hn::Max(p2, p3));
     alike = hn::And(alike, hn::Lt(darkest_absent, hn::Set(d, 0.5f * absent)));
@@ -73,7 +78,9 @@ HWY_INLINE bool Squares::measure(const Constants& c, const float* const (&planes
   hn::Store(hn::Set(d, static_cast<float>(image_y) + 0.5f), d, values[mean_y]);
   hn::Store(hn::Set(d, 4.0f), d, values[pixel_count]);
   hn::Store(hn::IfThenElseZero(alike, hn::Set(d, 1.0f)), d, narrow);
-  return hn::AllTrue(d, alike);
+  even = hn::And(even, alike);
+  hn::Store(hn::IfThenElseZero(even, hn::Set(d, 1.0f)), d, flat);
+  all_flat = hn::AllTrue(d, even);
 }
 
 /// The moments of all clusters of a row, field by field.
@@ -98,11 +105,12 @@ class Moments {
     count_ += static_cast<int>(hn::Lanes(d));
   }
 
-  void finish(const Constants& c, CellRow& out) const;
+  /// `flat`: as if the variances were 0.
+  void finish(const Constants& c, bool flat, Clusters& out) const;
 
  private:
   Vector field(int f, int i) const { return hn::LoadU(Lanes(), values_.get() + f * stride_ + i); }
-  void finish_lanes(const Constants& c, int i, CellRow& out) const;
+  void finish_lanes(const Constants& c, bool flat, int i, Clusters& out) const;
 
   int count_ = 0;
   std::ptrdiff_t stride_;
@@ -121,13 +129,13 @@ HWY_INLINE Vector lab_f_inverse_slope(Vector f) {
   return hn::IfThenElse(hn::Gt(f, hn::Set(d, 6.0f / 29.0f)), curved, hn::Set(d, 108.0f / 841.0f));
 }
 
-HWY_INLINE void Moments::finish_lanes(const Constants& c, int i, CellRow& out) const {
+HWY_INLINE void Moments::finish_lanes(const Constants& c, bool flat, int i, Clusters& out) const {
   const Lanes d;
   const auto store = [&](int f, Vector v)
                          HWY_ATTR { hn::StoreU(v, d, out.values.get() + f * out.stride + i); };
   const Vector ends = hn::Set(d, static_cast<float>(2.0 * weight_end)), one = hn::Set(d, 1.0f);
   const auto spread = [&](int k) HWY_ATTR {
-    return hn::Min(field(variance_lab + k, i), hn::Set(d, widest_variance));
+    return hn::Min(field(variance_lab + k, i), hn::Set(d, flat ? 0.0f : widest_variance));
   };
   const auto root_of = [&](Vector v) HWY_ATTR { return hn::Sqrt(hn::Div(one, hn::MulAdd(ends, v, one))); };
   const Vector vl = spread(0), va = spread(1), vb = spread(2);
@@ -149,7 +157,7 @@ HWY_INLINE void Moments::finish_lanes(const Constants& c, int i, CellRow& out) c
   const Vector fz = hn::NegMulAdd(b, hn::Set(d, unscale / 200.0f), fy);
   const Vector x = lab_f_inverse_slope(fx), y = lab_f_inverse_slope(fy), z = lab_f_inverse_slope(fz);
   const auto step = [&](float by, Vector v, Vector root) HWY_ATTR {
-    return hn::Mul(hn::Set(d, unscale / by), hn::Mul(ends, hn::Mul(v, root)));
+    return hn::Mul(hn::Set(d, -unscale / by), hn::Mul(ends, hn::Mul(v, root)));
   };
   const Vector step_l = step(116.0f, vl, rl), step_a = step(500.0f, va, ra), step_b = step(-200.0f, vb, rb);
   for (int k = 0; k < 3; ++k) {
@@ -163,10 +171,10 @@ HWY_INLINE void Moments::finish_lanes(const Constants& c, int i, CellRow& out) c
   }
 }
 
-HWY_INLINE void Moments::finish(const Constants& c, CellRow& out) const {
+HWY_INLINE void Moments::finish(const Constants& c, bool flat, Clusters& out) const {
   out.stride = count_ + 16;
   out.values = std::make_unique_for_overwrite<float[]>(static_cast<std::size_t>(out.stride * cluster_fields));
-  for (int i = 0; i < count_; i += static_cast<int>(hn::Lanes(Lanes()))) finish_lanes(c, i, out);
+  for (int i = 0; i < count_; i += static_cast<int>(hn::Lanes(Lanes()))) finish_lanes(c, flat, i, out);
 }
 
 }  // namespace
