@@ -79,7 +79,8 @@ Contender scalar_contender(const AppearanceParameters& p, const Place& place, co
   return out;
 }
 
-Contender way_contender(const AppearanceParameters& p, const Way& way, const Place& place, const Colours& colours) {
+Contender way_contender(const AppearanceParameters& p, const Way& way, const Place& place,
+                        const Colours& colours) {
   const PreparedWay prepared = prepare_way(p, way);
   Contender out;
   out.row.group = "operator";
@@ -88,7 +89,8 @@ Contender way_contender(const AppearanceParameters& p, const Way& way, const Pla
   out.row.seconds = prepared.seconds;
   out.row.bytes = prepared.bytes;
   const std::size_t rows = place->picture.rows();
-  out.run = timed_rows(place, way.edge > 0 ? std::max<std::size_t>(1, rows / slow_share) : rows, prepared.apply);
+  out.run =
+      timed_rows(place, way.edge > 0 ? std::max<std::size_t>(1, rows / slow_share) : rows, prepared.apply);
   return out;
 }
 
@@ -132,7 +134,8 @@ Contender half_contender(const AppearanceParameters& p, const TimedPicture& pict
   out.row.name = "float, half planes in and out";
   out.row.error = way_error(p, HalfPlanes::colours(compared.from), HalfPlanes::colours(compared.work));
   const auto planes = std::make_shared<HalfPlanes>(picture.pixels);
-  out.run = {[planes] { planes->restore(); }, [planes, batch] { planes->apply(*batch); }, picture.pixels.size()};
+  out.run = {[planes] { planes->restore(); }, [planes, batch] { planes->apply(*batch); },
+             picture.pixels.size()};
   return out;
 }
 
@@ -172,7 +175,8 @@ TimedPicture night_picture(std::size_t width, std::size_t height, const Appearan
     for (std::size_t x = 0; x < width; ++x) {
       const double u = static_cast<double>(x) / 97, v = static_cast<double>(y) / 89;
       const bool lit = x % 512 < 24 && y % 384 < 24;
-      const double level = lit ? lamp : ground * std::exp2(2 * std::sin(u) * std::cos(v) + std::sin(7 * u + 5 * v));
+      const double level =
+          lit ? lamp : ground * std::exp2(2 * std::sin(u) * std::cos(v) + std::sin(7 * u + 5 * v));
       out.pixels.r.push_back(static_cast<float>(level * (1.1 + 0.9 * std::sin(0.31 * u + v))));
       out.pixels.g.push_back(static_cast<float>(level * (1.0 + 0.3 * std::cos(0.57 * v - u))));
       out.pixels.b.push_back(static_cast<float>(level * (1.1 + 0.9 * std::cos(0.43 * u + 2 * v))));
@@ -206,6 +210,7 @@ std::vector<Contender> operator_contenders(const AppearanceParameters& p, const 
     if (threads < 2) break;
     Contender c = way_contender(p, way_named(name), place, colours);
     c.row.group = fmt::format("operator, {} threads", threads);
+    c.row.name = fmt::format("{}, {} threads", name, threads);
     c.run = threaded_rows(place, prepare_way(p, way_named(name)).apply);
     out.push_back(std::move(c));
   }
@@ -222,8 +227,9 @@ std::vector<Contender> rod_contenders(const AppearanceParameters& p, const Timed
     AppearanceParameters q = p;
     q.rods = rods;
     Contender c = way_contender(q, way_named("float"), place, colours);
-    const bool linear = rods == RodEstimate::linear;
-    c.row.group = linear ? "linear rods" : "quadratic rods";
+    // Two models: neither can dominate the other.
+    c.row.group = rods == RodEstimate::linear ? "linear rods" : "quadratic rods";
+    c.row.name = "float, " + c.row.group;
     out.push_back(std::move(c));
   }
   return out;

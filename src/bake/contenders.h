@@ -22,11 +22,11 @@ TimedPicture night_picture(std::size_t width, std::size_t height, const Appearan
 /// The same pixels from the start again, until there are as many rows as it takes for `pixels`.
 TimedPicture repeated(const TimedPicture& picture, std::size_t pixels);
 
-/// The operator: scalar double, which is the reference; double and float in vectors; float on halves and on RGBA;
-/// on `threads` threads, where more than one; LUTs through OpenColorIO. Errors are over `colours`.
-/// The picture must outlive the contenders.
-std::vector<Contender> operator_contenders(const AppearanceParameters& parameters, const TimedPicture& picture,
-                                           const Colours& colours, int threads);
+/// The operator: scalar double, which is the reference; double and float in vectors; float on halves and on
+/// RGBA; on `threads` threads, where more than one; LUTs through OpenColorIO. Errors are over `colours`. The
+/// picture must outlive the contenders.
+std::vector<Contender> operator_contenders(const AppearanceParameters& parameters,
+                                           const TimedPicture& picture, const Colours& colours, int threads);
 
 /// Rods from colour, float: the linear and the quadratic estimate, each against its own reference.
 std::vector<Contender> rod_contenders(const AppearanceParameters& parameters, const TimedPicture& picture,

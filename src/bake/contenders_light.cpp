@@ -35,7 +35,8 @@ std::vector<float> bands_of(const TabulatedCurve& spectrum, const BandGrid& grid
     }
     constexpr int parts = 64;
     double sum = 0;
-    for (int i = 0; i < parts; ++i) sum += spectrum.at(grid.lower_edge(b) + grid.width(b) * (i + 0.5) / parts);
+    for (int i = 0; i < parts; ++i)
+      sum += spectrum.at(grid.lower_edge(b) + grid.width(b) * (i + 0.5) / parts);
     out.push_back(static_cast<float>(sum / parts));
   }
   return out;
@@ -66,20 +67,23 @@ std::vector<Spectrum> built_in_spectra() {
   return out;
 }
 
-WayError spectral_error(const AppearanceParameters& p, const SpectralIntegrator& integrator, const BandGrid& grid,
-                        BandSampling sampling) {
+WayError spectral_error(const AppearanceParameters& p, const SpectralIntegrator& integrator,
+                        const BandGrid& grid, BandSampling sampling) {
   const BandGrid fine = grid_of(1);
-  const SpectralIntegrator truth(emissive_weights(fine, BandSampling::bin, BandUnit::per_nm), Accumulation::dual);
+  const SpectralIntegrator truth(emissive_weights(fine, BandSampling::bin, BandUnit::per_nm),
+                                 Accumulation::dual);
   const AppearanceReference reference(p);
   std::vector<double> differences, relative;
   for (const Spectrum& spectrum : built_in_spectra()) {
     const Signals should = signals_of(truth, bands_of(spectrum.curve(), fine, BandSampling::bin));
     const Signals is = signals_of(integrator, bands_of(spectrum.curve(), grid, sampling));
     double worst = 0;
-    for (std::size_t s = 0; s < 4; ++s) worst = std::max(worst, std::abs(static_cast<double>(is[s] / should[s]) - 1));
+    for (std::size_t s = 0; s < 4; ++s)
+      worst = std::max(worst, std::abs(static_cast<double>(is[s] / should[s]) - 1));
     relative.push_back(worst);
     for (const double level : {0.25, 1.0, 4.0}) {
-      const double gain = level * p.adaptation / p.white_luminance / static_cast<double>(should[index(Signal::y)]);
+      const double gain =
+          level * p.adaptation / p.white_luminance / static_cast<double>(should[index(Signal::y)]);
       differences.push_back(exposed_difference(p.xyz_from_rgb * seen(reference, should, gain),
                                                p.xyz_from_rgb * seen(reference, is, gain)));
     }
@@ -109,8 +113,8 @@ struct BandRows {
 
 Contender spectral_contender(const AppearanceParameters& p, double step, BandSampling sampling) {
   const BandGrid grid = grid_of(step);
-  const auto integrator =
-      std::make_shared<SpectralIntegrator>(emissive_weights(grid, sampling, BandUnit::per_nm), Accumulation::dual);
+  const auto integrator = std::make_shared<SpectralIntegrator>(
+      emissive_weights(grid, sampling, BandUnit::per_nm), Accumulation::dual);
   const auto rows = std::make_shared<BandRows>(grid.size());
   Contender out;
   out.row.group = "spectra";
@@ -127,7 +131,8 @@ struct AcuityPlace {
 
   AcuityPlace(const TimedPicture& picture, int most)
       : side(std::min({most, static_cast<int>(picture.width), static_cast<int>(picture.rows())})) {
-    const std::size_t n = static_cast<std::size_t>(side), x = (picture.width - n) / 2, y = (picture.rows() - n) / 2;
+    const std::size_t n = static_cast<std::size_t>(side), x = (picture.width - n) / 2,
+                      y = (picture.rows() - n) / 2;
     for (std::size_t row = 0; row < n; ++row)
       for (std::size_t column = 0; column < n; ++column) {
         const std::size_t i = (y + row) * picture.width + x + column;
@@ -146,7 +151,8 @@ struct AcuityPlace {
 WayError acuity_error(const AppearanceParameters& p, const Colours& expected, const Colours& got) {
   std::vector<double> differences, relative;
   for (std::size_t i = 0; i < got.size(); ++i) {
-    const Vec3<double> should = {expected.r[i], expected.g[i], expected.b[i]}, is = {got.r[i], got.g[i], got.b[i]};
+    const Vec3<double> should = {expected.r[i], expected.g[i], expected.b[i]},
+                       is = {got.r[i], got.g[i], got.b[i]};
     differences.push_back(exposed_difference(p.xyz_from_rgb * should, p.xyz_from_rgb * is));
     double size = 0, error = 0;
     for (std::size_t c = 0; c < 3; ++c) {

@@ -34,13 +34,12 @@ class Contest {
     rows.r = work.r.data(), rows.g = work.g.data(), rows.b = work.b.data(), rows.count = work.size();
     std::vector<TimedRun> runs;
     for (const Candidate& c : candidates_)
-      runs.push_back(
-          {[&] {
-             std::copy(colours_.r.begin(), colours_.r.end(), work.r.begin());
-             std::copy(colours_.g.begin(), colours_.g.end(), work.g.begin());
-             std::copy(colours_.b.begin(), colours_.b.end(), work.b.begin());
-           },
-           [&rows, &c] { c.prepared.apply(rows, nullptr); }, work.size()});
+      runs.push_back({[&] {
+                        std::copy(colours_.r.begin(), colours_.r.end(), work.r.begin());
+                        std::copy(colours_.g.begin(), colours_.g.end(), work.g.begin());
+                        std::copy(colours_.b.begin(), colours_.b.end(), work.b.begin());
+                      },
+                      [&rows, &c] { c.prepared.apply(rows, nullptr); }, work.size()});
     const std::vector<RunTime> times = time_interleaved(runs, rounds);
     std::vector<MeasuredWay> out;
     for (std::size_t i = 0; i < candidates_.size(); ++i)

@@ -24,8 +24,8 @@ struct MeasuredWay {
   double nanoseconds = 0;
 };
 
-/// The place of the way to take: among those that meet the demand the cheapest, or, where there is only a budget,
-/// the most accurate. nullopt: none does.
+/// The place of the way to take: among those that meet the demand the cheapest, or, where there is only a
+/// budget, the most accurate. nullopt: none does.
 std::optional<std::size_t> pick_way(std::span<const MeasuredWay> measured, const WayDemand& demand);
 
 struct WayChoice {

@@ -17,8 +17,8 @@ bool dominates(const WayRow& a, const WayRow& b) {
 
 void mark_dominated(std::vector<WayRow>& rows) {
   for (WayRow& row : rows)
-    row.dominated = std::any_of(rows.begin(), rows.end(),
-                                [&](const WayRow& other) { return dominates(other, row); });
+    row.dominated =
+        std::any_of(rows.begin(), rows.end(), [&](const WayRow& other) { return dominates(other, row); });
 }
 
 std::vector<WayRow> time_contenders(const std::vector<Contender>& contenders, std::size_t pixels, int rounds,

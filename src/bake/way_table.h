@@ -16,11 +16,11 @@ struct WayRow {
   std::string group;
   std::string name;
   std::optional<WayError> error;
-  RunTime time;               ///< per pixel
-  double memcpy_ratio = 0;    ///< of medians, in one run; memcpy moves RGBA float
-  double seconds = 0;         ///< to prepare: baking
-  std::size_t bytes = 0;      ///< of tables
-  bool dominated = false;     ///< another of its group is no slower and no less accurate, and better in one
+  RunTime time;             ///< per pixel
+  double memcpy_ratio = 0;  ///< of medians, in one run; memcpy moves RGBA float
+  double seconds = 0;       ///< to prepare: baking
+  std::size_t bytes = 0;    ///< of tables
+  bool dominated = false;   ///< another of its group is no slower and no less accurate, and better in one
 };
 
 /// Sets `dominated` by median time and mean and greatest difference. Rows without an error dominate nothing.

@@ -17,14 +17,16 @@ std::string demand_text(const WayDemand& d) {
 std::string measured_text(const std::vector<MeasuredWay>& measured) {
   std::string out;
   for (const MeasuredWay& way : measured)
-    out += fmt::format("{}{} {:.2g} dE00 {:.3g} ns", out.empty() ? "" : ", ", way.name, way.max_error, way.nanoseconds);
+    out += fmt::format("{}{} {:.2g} dE00 {:.3g} ns", out.empty() ? "" : ", ", way.name, way.max_error,
+                       way.nanoseconds);
   return out;
 }
 
 nlohmann::ordered_json report_of(const WayChoice& choice) {
   nlohmann::ordered_json out;
   for (const MeasuredWay& way : choice.measured)
-    out.push_back({{"way", way.name}, {"maxDeltaE00", way.max_error}, {"nanosecondsPerPixel", way.nanoseconds}});
+    out.push_back(
+        {{"way", way.name}, {"maxDeltaE00", way.max_error}, {"nanosecondsPerPixel", way.nanoseconds}});
   return out;
 }
 
@@ -48,7 +50,8 @@ void add_precision_options(CLI::App& verb, PrecisionOptions& o) {
 PrecisionChoice understand(const PrecisionOptions& o) {
   PrecisionChoice out;
   if (!o.max_error.empty())
-    out.demand.max_error = number_in("--max-error", o.max_error, 0, 1000, "a colour difference of 0 to 1000 (CIEDE2000)");
+    out.demand.max_error =
+        number_in("--max-error", o.max_error, 0, 1000, "a colour difference of 0 to 1000 (CIEDE2000)");
   if (!o.budget.empty())
     out.demand.budget = number_in("--budget", o.budget, 0, 1e9, "nanoseconds per pixel, 0 to 1e9");
   std::vector<std::pair<std::string, const Way*>> names;

@@ -34,8 +34,9 @@ struct ChosenWay {
   nlohmann::ordered_json report;  ///< for --json; null where nothing was demanded
 };
 
-/// Measures where something is demanded, and says what was picked. `receptors`: pixels bring signals of their own,
-/// for which no LUT will do: Error(usage) if one is asked for by name. Error(limit) if no way meets the demand.
+/// Measures where something is demanded, and says what was picked. `receptors`: pixels bring signals of their
+/// own, for which no LUT will do: Error(usage) if one is asked for by name. Error(limit) if no way meets the
+/// demand.
 ChosenWay settle(const PrecisionChoice& choice, const AppearanceParameters& parameters, bool receptors,
                  const Console& console);
 

@@ -21,8 +21,8 @@ nlohmann::ordered_json json_of(const WayError& e) {
 
 std::string error_columns(const std::optional<WayError>& e) {
   if (!e) return fmt::format("{:>10}{:>10}{:>10}{:>10}", "", "", "", "");
-  return fmt::format("{:10.2g}{:10.2g}{:10.2g}{:10.2g}", e->difference.mean, e->difference.p99, e->difference.max,
-                     e->pixel.max);
+  return fmt::format("{:10.2g}{:10.2g}{:10.2g}{:10.2g}", e->difference.mean, e->difference.p99,
+                     e->difference.max, e->pixel.max);
 }
 
 std::string bytes_text(std::size_t bytes) {
@@ -34,17 +34,17 @@ std::string bytes_text(std::size_t bytes) {
 }  // namespace
 
 std::string time_text(const std::vector<WayRow>& rows, const TimeConditions& c) {
-  std::string out = fmt::format(
-      "{}; OpenColorIO {}; load {:.2f}\n{}, {} pixels, median of {} rounds; errors over {}\n\n", c.machine, c.ocio,
-      c.load, c.picture, c.pixels, c.rounds, c.colours);
-  out += fmt::format("{:<32}{:>10}{:>8}{:>8}{:>10}{:>10}{:>10}{:>10}{:>9}{:>9}\n", "", "ns/pixel", "spread", "memcpy",
-                     "dE00 mean", "99 %", "max", "pixel", "tables", "bake s");
+  std::string out =
+      fmt::format("{}; OpenColorIO {}; load {:.2f}\n{}, {} pixels, median of {} rounds; errors over {}\n\n",
+                  c.machine, c.ocio, c.load, c.picture, c.pixels, c.rounds, c.colours);
+  out += fmt::format("{:<32}{:>10}{:>8}{:>8}{:>10}{:>10}{:>10}{:>10}{:>9}{:>9}\n", "", "ns/pixel", "spread",
+                     "memcpy", "dE00 mean", "99 %", "max", "pixel", "tables", "bake s");
   std::string group;
   for (const WayRow& row : rows) {
     if (row.group != group) out += fmt::format("{}\n", group = row.group);
     out += fmt::format("  {:<30}{:10.3g}{:7.0f}%{:8.3g}{}{:>9}{:>9}{}\n", row.name, row.time.median,
-                       100 * row.time.spread(), row.memcpy_ratio, error_columns(row.error), bytes_text(row.bytes),
-                       row.seconds >= 0.0005 ? fmt::format("{:.3f}", row.seconds) : "",
+                       100 * row.time.spread(), row.memcpy_ratio, error_columns(row.error),
+                       bytes_text(row.bytes), row.seconds >= 0.0005 ? fmt::format("{:.3f}", row.seconds) : "",
                        row.dominated ? "  dominated" : "");
   }
   return out;
@@ -52,12 +52,14 @@ std::string time_text(const std::vector<WayRow>& rows, const TimeConditions& c) 
 
 std::string time_csv(const std::vector<WayRow>& rows) {
   std::string out =
-      "group,way,ns_per_pixel,ns_least,ns_quartile_low,ns_quartile_high,memcpy_ratio,de00_mean,de00_p99,de00_max,"
+      "group,way,ns_per_pixel,ns_least,ns_quartile_low,ns_quartile_high,memcpy_ratio,de00_mean,de00_p99,de00_"
+      "max,"
       "pixel_mean,pixel_p99,pixel_max,ulps_mean,ulps_p99,ulps_max,bytes,bake_seconds,dominated\n";
   for (const WayRow& row : rows) {
-    out += fmt::format("\"{}\",\"{}\",{:g},{:g},{:g},{:g},{:g}", row.group, row.name, row.time.median, row.time.least,
-                       row.time.quartile_low, row.time.quartile_high, row.memcpy_ratio);
-    if (!row.error) out += ",,,,,,,,,";
+    out += fmt::format("\"{}\",\"{}\",{:g},{:g},{:g},{:g},{:g}", row.group, row.name, row.time.median,
+                       row.time.least, row.time.quartile_low, row.time.quartile_high, row.memcpy_ratio);
+    if (!row.error)
+      out += ",,,,,,,,,";
     else
       for (const ErrorStatistics* e : {&row.error->difference, &row.error->pixel, &row.error->component})
         out += fmt::format(",{:g},{:g},{:g}", e->mean, e->p99, e->max);

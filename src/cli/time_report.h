@@ -11,13 +11,13 @@ namespace scotopic {
 
 /// What the numbers hold for.
 struct TimeConditions {
-  std::string machine;     ///< processor and vector instructions
-  std::string ocio;        ///< version
+  std::string machine;  ///< processor and vector instructions
+  std::string ocio;     ///< version
   std::string picture;
-  std::string colours;     ///< what errors were measured over
+  std::string colours;  ///< what errors were measured over
   std::size_t pixels = 0;
   int rounds = 0;
-  double load = 0;         ///< the system's, over the last minute
+  double load = 0;  ///< the system's, over the last minute
 };
 
 std::string time_text(const std::vector<WayRow>& rows, const TimeConditions& conditions);
@@ -25,8 +25,8 @@ std::string time_text(const std::vector<WayRow>& rows, const TimeConditions& con
 std::string time_csv(const std::vector<WayRow>& rows);
 nlohmann::ordered_json time_json(const std::vector<WayRow>& rows, const TimeConditions& conditions);
 
-/// Greatest CIEDE2000 against time, both logarithmic, of the rows of one group that have an error above 0; the
-/// front joined by a line, dominated ways hollow. SVG, the same bytes for the same rows.
+/// Greatest CIEDE2000 against time, both logarithmic, of the rows of one group that have an error above 0;
+/// the front joined by a line, dominated ways hollow. SVG, the same bytes for the same rows.
 std::string pareto_svg(const std::vector<WayRow>& rows, const std::string& group, const std::string& caption);
 
 }  // namespace scotopic

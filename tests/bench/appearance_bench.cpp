@@ -1,5 +1,6 @@
-// The operator against memcpy and against plain scalar code, on each SIMD target of this machine, in one run; and how
-// far float and double are from exact arithmetic (GNU MPFR). Usage: bench_appearance [ROUNDS] [--json].
+// The operator against memcpy and against plain scalar code, on each SIMD target of this machine, in one run;
+// and how far float and double are from exact arithmetic (GNU MPFR). Usage: bench_appearance [ROUNDS]
+// [--json].
 #include <hwy/targets.h>
 
 #include <algorithm>
@@ -81,8 +82,10 @@ TimedRun planes(Frames& f, std::shared_ptr<AppearanceBatch> batch, bool threaded
   };
   return {[&f] { f.restore(); },
           [work, threaded] {
-            if (threaded) parallel_rows(static_cast<int>(height), 8, work);
-            else work(0, static_cast<int>(height));
+            if (threaded)
+              parallel_rows(static_cast<int>(height), 8, work);
+            else
+              work(0, static_cast<int>(height));
           },
           pixels};
 }
@@ -115,18 +118,19 @@ std::vector<Named> cases(Frames& f) {
   };
   const AppearanceParameters full = parameters(0.1), kernel = kernel_alone(), light = parameters(10);
   using enum Precision;
-  return {{"memcpy", {nullptr, [&f] { std::copy(f.rgba.begin(), f.rgba.end(), f.rgba_work.begin()); }, pixels}},
-          {"kernel, float", planes(f, batch(kernel, single), false)},
-          {"kernel, float, RGBA", interleaved(f, batch(kernel, single))},
-          {"kernel, double inside", planes(f, batch(kernel, dual), false)},
-          {"operator, float", planes(f, batch(full, single), false)},
-          {"operator, float, RGBA", interleaved(f, batch(full, single))},
-          {"operator, double inside", planes(f, batch(full, dual), false)},
-          {"operator, float, photopic", planes(f, batch(light, single), false)},
-          {"operator, float, 2 threads", planes(f, batch(full, single), true)},
-          {"operator, double inside, 2 threads", planes(f, batch(full, dual), true)},
-          {"kernel, scalar double", scalar(f, kernel)},
-          {"operator, scalar double", scalar(f, full)}};
+  return {
+      {"memcpy", {nullptr, [&f] { std::copy(f.rgba.begin(), f.rgba.end(), f.rgba_work.begin()); }, pixels}},
+      {"kernel, float", planes(f, batch(kernel, single), false)},
+      {"kernel, float, RGBA", interleaved(f, batch(kernel, single))},
+      {"kernel, double inside", planes(f, batch(kernel, dual), false)},
+      {"operator, float", planes(f, batch(full, single), false)},
+      {"operator, float, RGBA", interleaved(f, batch(full, single))},
+      {"operator, double inside", planes(f, batch(full, dual), false)},
+      {"operator, float, photopic", planes(f, batch(light, single), false)},
+      {"operator, float, 2 threads", planes(f, batch(full, single), true)},
+      {"operator, double inside, 2 threads", planes(f, batch(full, dual), true)},
+      {"kernel, scalar double", scalar(f, kernel)},
+      {"operator, scalar double", scalar(f, full)}};
 }
 
 void time_target(Frames& f, std::int64_t target, int rounds, bool json, bool& first) {
@@ -139,8 +143,9 @@ void time_target(Frames& f, std::int64_t target, int rounds, bool json, bool& fi
   for (std::size_t i = 0; i < named.size(); ++i) {
     const double ratio = times[i].median / times[0].median;
     if (json)
-      std::printf("%s{\"target\":\"%s\",\"what\":\"%s\",\"ns\":%.4g,\"ratio\":%.4g,\"spread\":%.3g}", first ? "" : ",\n",
-                  hwy::TargetName(target), named[i].name.c_str(), times[i].median, ratio, times[i].spread());
+      std::printf("%s{\"target\":\"%s\",\"what\":\"%s\",\"ns\":%.4g,\"ratio\":%.4g,\"spread\":%.3g}",
+                  first ? "" : ",\n", hwy::TargetName(target), named[i].name.c_str(), times[i].median, ratio,
+                  times[i].spread());
     else
       std::printf("%-6s %-36s %8.2f ns/pixel %7.2f x memcpy  (spread %.0f %%)\n", hwy::TargetName(target),
                   named[i].name.c_str(), times[i].median, ratio, 100 * times[i].spread());
@@ -150,7 +155,8 @@ void time_target(Frames& f, std::int64_t target, int rounds, bool json, bool& fi
   hwy::GetChosenTarget().DeInit();
 }
 
-/// Worst error over colours of 28 stops: of the pixel's largest component, and of a component in its float ulps.
+/// Worst error over colours of 28 stops: of the pixel's largest component, and of a component in its float
+/// ulps.
 struct Worst {
   double pixel = 0, ulps = 0;
   Vec3<double> pixel_in{}, ulps_in{};
@@ -190,18 +196,21 @@ void judge_adaptation(double adaptation, bool json, bool& first) {
     const Vec3<double> rgb = {in.r[i], in.g[i], in.b[i]};
     const Vec3<test::Mp> should = exact({rgb});
     judge(rgb, should, reference({rgb}), worst[0]);
-    for (std::size_t k = 0; k < 2; ++k) judge(rgb, should, {outs[k].r[i], outs[k].g[i], outs[k].b[i]}, worst[k + 1]);
+    for (std::size_t k = 0; k < 2; ++k)
+      judge(rgb, should, {outs[k].r[i], outs[k].g[i], outs[k].b[i]}, worst[k + 1]);
   }
   const char* const names[3] = {"reference", "float", "double inside"};
   for (std::size_t k = 0; k < 3; ++k) {
     const Worst& w = worst[k];
     const char* const format =
-        json ? "%s{\"adaptation\":%g,\"way\":\"%s\",\"pixel\":%.3g,\"pixelAt\":[%.9g,%.9g,%.9g],\"ulps\":%.3g,"
-               "\"ulpsAt\":[%.9g,%.9g,%.9g]}"
-             : "%sLa %-6g %-14s %9.3g of the pixel, at (%.9g, %.9g, %.9g);  %9.3g float ulps of a component, at (%.9g, "
-               "%.9g, %.9g)\n";
-    std::printf(format, !json || first ? "" : ",\n", adaptation, names[k], w.pixel, w.pixel_in[0], w.pixel_in[1],
-                w.pixel_in[2], w.ulps, w.ulps_in[0], w.ulps_in[1], w.ulps_in[2]);
+        json
+            ? "%s{\"adaptation\":%g,\"way\":\"%s\",\"pixel\":%.3g,\"pixelAt\":[%.9g,%.9g,%.9g],\"ulps\":%.3g,"
+              "\"ulpsAt\":[%.9g,%.9g,%.9g]}"
+            : "%sLa %-6g %-14s %9.3g of the pixel, at (%.9g, %.9g, %.9g);  %9.3g float ulps of a component, "
+              "at (%.9g, "
+              "%.9g, %.9g)\n";
+    std::printf(format, !json || first ? "" : ",\n", adaptation, names[k], w.pixel, w.pixel_in[0],
+                w.pixel_in[1], w.pixel_in[2], w.ulps, w.ulps_in[0], w.ulps_in[1], w.ulps_in[2]);
     first = false;
   }
 }

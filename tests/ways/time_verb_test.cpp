@@ -67,9 +67,9 @@ TEST(TimeVerb, every_way_has_its_row_with_time_and_error) {
       EXPECT_GT(way["bakeSeconds"], 0);
     }
   }
-  for (const char* name :
-       {"memcpy", "double, scalar", "double", "float", "lut129", "lut65", "lut33", "lut17", "float, RGBA float",
-        "1 nm bins", "5 nm points", "10 nm bins", "window", "cells, fine", "cells, draft"})
+  for (const char* name : {"memcpy", "double, scalar", "double", "float", "lut129", "lut65", "lut33", "lut17",
+                           "float, RGBA float", "1 nm bins", "5 nm points", "10 nm bins", "window",
+                           "cells, fine", "cells, draft"})
     EXPECT_TRUE(names.contains(name)) << name;
   EXPECT_GE(result["pixels"], 65536);
   const std::string svg = content(plot);

@@ -39,8 +39,9 @@ WayRow row(const char* group, double time, double mean, double max) {
 }
 
 TEST(Timing, a_way_is_dominated_by_one_of_its_group_that_is_no_worse_in_anything) {
-  std::vector<WayRow> rows = {row("a", 1, 1, 1), row("a", 2, 1, 1),     row("a", 2, 0.5, 2), row("a", 1, 1, 1),
-                              row("b", 9, 9, 9), row("a", 0.5, 2, 0.5), WayRow{}};
+  std::vector<WayRow> rows = {row("a", 1, 1, 1), row("a", 2, 1, 1), row("a", 2, 0.5, 2),
+                              row("a", 1, 1, 1), row("b", 9, 9, 9), row("a", 0.5, 2, 0.5),
+                              WayRow{}};
   rows.back().group = "a";  // fastest of all, but nobody knows its error
   mark_dominated(rows);
   const bool expected[] = {false, true, false, false, false, false, false};

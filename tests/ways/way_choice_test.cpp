@@ -20,11 +20,11 @@ TEST(WayChoice, is_the_cheapest_that_is_accurate_enough_or_the_most_accurate_tha
     std::optional<double> max_error, budget;
     std::string_view expected;
   };
-  const Row rows[] = {
-      {2.0, {}, "lut17"},   {1.0, {}, "lut33"},      {0.6, {}, "lut33"},  {0.5, {}, "float"}, {1e-5, {}, "float"},
-      {9e-6, {}, "double"}, {1e-6, {}, "none"},      {{}, 100.0, "double"}, {{}, 15.0, "double"}, {{}, 14.0, "float"},
-      {{}, 4.0, "lut33"},   {{}, 2.5, "lut17"},      {{}, 1.0, "none"},   {1.0, 4.0, "lut33"}, {1.0, 2.5, "none"},
-      {0.01, 5.0, "float"}, {6e-6, 14.0, "none"}};
+  const Row rows[] = {{2.0, {}, "lut17"},   {1.0, {}, "lut33"},   {0.6, {}, "lut33"}, {0.5, {}, "float"},
+                      {1e-5, {}, "float"},  {9e-6, {}, "double"}, {1e-6, {}, "none"}, {{}, 100.0, "double"},
+                      {{}, 15.0, "double"}, {{}, 14.0, "float"},  {{}, 4.0, "lut33"}, {{}, 2.5, "lut17"},
+                      {{}, 1.0, "none"},    {1.0, 4.0, "lut33"},  {1.0, 2.5, "none"}, {0.01, 5.0, "float"},
+                      {6e-6, 14.0, "none"}};
   for (const Row& row : rows)
     EXPECT_EQ(picked({row.max_error, row.budget}), row.expected)
         << row.max_error.value_or(-1) << ' ' << row.budget.value_or(-1);

@@ -37,16 +37,20 @@ TEST(Ways, each_is_as_exact_as_it_says) {
     double difference;  // CIEDE2000 of 99 % of the colours
   };
   // double: one rounding to float. float: the figure asked for. LUTs: about twice what was measured.
-  constexpr Row rows[] = {{"double", 6.0e-8, 1e-5}, {"float", 5e-7, 2e-5}, {"lut65", 0.02, 0.1}, {"lut33", 0.06, 0.4},
+  constexpr Row rows[] = {{"double", 6.0e-8, 1e-5},
+                          {"float", 5e-7, 2e-5},
+                          {"lut65", 0.02, 0.1},
+                          {"lut33", 0.06, 0.4},
                           {"lut17", 0.15, 1.5}};
   for (const double adaptation : {0.001, 0.01, 0.1, 1.0})
     for (const Row& row : rows) {
       const PreparedWay way = prepare_way(at(adaptation), way_named(row.way));
       const WayError error = way_error(at(adaptation), way.apply, colours(20000));
       const WorstPixel& worst = error.worst.front();
-      std::printf("La %-6g %-7s pixel %.3g, dE00 %.3g (99 %% %.3g), %.3g float ulps; worst (%.9g, %.9g, %.9g)\n", adaptation,
-                  row.way, error.pixel.max, error.difference.max, error.difference.p99, error.component.max, worst.in[0], worst.in[1],
-                  worst.in[2]);
+      std::printf(
+          "La %-6g %-7s pixel %.3g, dE00 %.3g (99 %% %.3g), %.3g float ulps; worst (%.9g, %.9g, %.9g)\n",
+          adaptation, row.way, error.pixel.max, error.difference.max, error.difference.p99,
+          error.component.max, worst.in[0], worst.in[1], worst.in[2]);
       EXPECT_LE(error.pixel.max, row.pixel) << row.way;
       EXPECT_LE(error.difference.p99, row.difference) << row.way;
       EXPECT_DOUBLE_EQ(worst.error, error.pixel.max);
