@@ -12,7 +12,9 @@
 #include "cli/scene_numbers.h"
 #include "cli/scene_plan.h"
 #include "cli/spectral_options.h"
+#include "cli/values.h"
 #include "image/apply_image.h"
+#include "image/non_finite.h"
 
 namespace scotopic {
 namespace {
@@ -24,6 +26,7 @@ struct ApplyOptions {
   PrecisionOptions precision;
   BandOptions bands;
   AcuityOptions acuity;
+  std::string non_finite = "keep";
   ImageOptions image;
   CommonOptions common;
 };
@@ -93,6 +96,21 @@ std::optional<SceneStatistics> measure(PixelSource& source, const ImageLayout& l
   return measure_image(source, layout, config, choice.parameters, choice.metering.region);
 }
 
+NonFinite non_finite_policy(const std::string& text) {
+  return choice<NonFinite>("--nonfinite", text,
+                           {{"keep", NonFinite::keep}, {"clean", NonFinite::clean}, {"error", NonFinite::error}});
+}
+
+/// Says once what was done with pixels that are no light; their number.
+std::uint64_t report_non_finite(const NonFiniteWatch& watch, NonFinite policy, PixelSource& source,
+                                const ImageLayout& layout, const ColourConfig& config, const Console& console) {
+  if (watch.count() == 0) return 0;
+  const NonFinitePixels pixels = find_non_finite(source, layout, config);
+  console.note(fmt::format("{}: {}; {}", source.file(), describe(pixels),
+                           policy == NonFinite::clean ? "cleaned" : "passed as they are (--nonfinite)"));
+  return pixels.count;
+}
+
 /// Whether pixels bring signals of their own beside RGB.
 bool has_receptors(const ImageLayout& layout) {
   using Kind = ColourChannels::Kind;
@@ -106,6 +124,7 @@ int run_apply(const ApplyOptions& options) {
   OperatorChoice choice = understand(options.appearance);
   const PrecisionChoice precision = understand(options.precision);
   const AcuityChoice acuity_choice = understand(options.acuity);
+  const NonFinite non_finite = non_finite_policy(options.non_finite);
   const ImageRequest request = understand(options.image);
   const SpectralOptions spectral = understand(options.bands, choice.illuminant, options.image.layer);
   (void)output_format(options.output);
@@ -118,6 +137,7 @@ int run_apply(const ApplyOptions& options) {
       open_input(options.input, spectral, options.image.limits, console);
   ImageLayout layout = plan_layout(*source, options.output, config, request);
   describe_layout(*source, config, layout, console);
+  if (non_finite == NonFinite::error) refuse_non_finite(*source, layout, config);
 
   const KnownNumbers known = known_numbers(choice, *source, layout, console);
   const std::optional<SceneStatistics> statistics = measure(*source, layout, config, choice, known);
@@ -140,10 +160,12 @@ int run_apply(const ApplyOptions& options) {
   stamps.push_back({"scotopic:precision", way.name});
   if (acuity) stamps.push_back({"scotopic:acuityPixelsPerDegree", resolution.pixels_per_degree});
   set_stamps(layout, stamps);
-  apply_image(*source, layout, config, plan.nothing() ? RowOperator{} : way.apply, file, nullptr,
+  const NonFiniteWatch watch(non_finite);
+  apply_image(*source, layout, config, watch.watched(plan.nothing() ? RowOperator{} : way.apply), file, nullptr,
               acuity.get());
   nlohmann::ordered_json result = result_of(options, numbers, layout, stamps, *source);
   result["effects"] = plan_json(plan);
+  result["nonFinite"] = report_non_finite(watch, non_finite, *source, layout, config, console);
   if (!way.report.is_null()) result["ways"] = way.report;
   console.result(result);
   return static_cast<int>(ExitCode::done);
@@ -165,6 +187,8 @@ void add_apply(CLI::App& program, Invocation& invocation) {
   add_precision_options(verb, options->precision);
   add_band_options(verb, options->bands);
   add_acuity_options(verb, options->acuity);
+  verb.add_option("--nonfinite", options->non_finite, "NaN and infinite pixels: keep, clean (to 0), or error")
+      ->type_name("WHAT");
   add_input_options(verb, options->image);
   add_output_options(verb, options->image);
   add_common_options(verb, options->common);

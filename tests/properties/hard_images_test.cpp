@@ -19,6 +19,8 @@
 
 #include "acuity/filter.h"
 #include "image/apply_image.h"
+#include "image/error.h"
+#include "image/non_finite.h"
 #include "properties/regimes.h"
 
 namespace scotopic::test {
@@ -71,8 +73,8 @@ Image read(const std::string& file) {
   return image;
 }
 
-/// An image through files, as apply does; sigma of the acuity filter in pixels, 0: none.
-Image applied(const Image& image, double sigma = 0) {
+/// An image through files, as apply does; sigma of the acuity filter in pixels, 0: none. `found`: what was reported.
+Image applied(const Image& image, double sigma = 0, NonFinite policy = NonFinite::keep, NonFinitePixels* found = nullptr) {
   const auto folder = std::filesystem::temp_directory_path() / ("hard-images-" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   const std::string in = (folder / "in.exr").string(), out = (folder / "out.exr").string();
@@ -92,9 +94,15 @@ Image applied(const Image& image, double sigma = 0) {
     acuity.sigma = sigma;
     acuity.xyz_from_rgb = p.xyz_from_rgb;
     const AcuityFilter filter(acuity);
+    if (policy == NonFinite::error) refuse_non_finite(*source, layout, config);
+    const NonFiniteWatch watch(policy);
     apply_image(*source, layout, config,
-                [&](const PixelRows& rows, std::uint8_t* touched) { batch.apply(rows, touched); }, file, nullptr,
-                sigma > 0 ? &filter : nullptr);
+                watch.watched([&](const PixelRows& rows, std::uint8_t* touched) { batch.apply(rows, touched); }), file,
+                nullptr, sigma > 0 ? &filter : nullptr);
+    if (found) {
+      *found = find_non_finite(*source, layout, config);
+      EXPECT_EQ(watch.count(), found->count);
+    }
   }
   Image result = read(out);
   std::filesystem::remove_all(folder);
@@ -153,6 +161,42 @@ TEST(HardImages, without_acuity_pixels_beside_bad_ones_are_as_in_a_sound_picture
     ++compared;
   }
   EXPECT_GT(compared, 2000);
+}
+
+TEST(HardImages, bad_pixels_are_counted_and_the_first_is_named) {
+  NonFinitePixels found;
+  Image in = night(61, 47);
+  applied(in, 0, NonFinite::keep, &found);
+  EXPECT_EQ(found.count, 0u);
+  in.set(61 * 7 + 5, 1, nan, 1);
+  in.set(61 * 30 + 2, -inf, 1, 1);
+  applied(in, 0, NonFinite::keep, &found);
+  EXPECT_EQ(describe(found), "2 pixels are not finite, the first at (5, 7)");
+}
+
+TEST(HardImages, cleaned_pixels_are_as_if_their_bad_components_had_been_0) {
+  Image in = night(61, 47), zeroed = in;
+  for (const std::size_t i : ring(in)) {
+    in.set(i, i % 2 ? inf : 0.1f, nan, 0.2f);
+    zeroed.set(i, i % 2 ? 0.0f : 0.1f, 0, 0.2f);
+  }
+  for (const double sigma : {0.0, 2.5}) {
+    const Image out = applied(in, sigma, NonFinite::clean), expected = applied(zeroed, sigma);
+    for (std::size_t i = 0; i < in.size(); ++i) ASSERT_EQ(out.bits(i), expected.bits(i)) << i;
+  }
+}
+
+TEST(HardImages, a_file_with_a_bad_pixel_can_be_refused) {
+  Image in = night(61, 47);
+  EXPECT_NO_THROW(applied(in, 0, NonFinite::error));
+  in.set(61 * 46 + 60, 1, 1, -inf);
+  try {
+    applied(in, 0, NonFinite::error);
+    ADD_FAILURE() << "was taken";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::input);
+    EXPECT_STREQ(error.what(), "1 pixel is not finite, the first at (60, 46)");
+  }
 }
 
 TEST(HardImages, every_half_value_in_every_channel_stays_what_it_can) {

@@ -1,0 +1,82 @@
+#include "image/non_finite.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "image/error.h"
+#include "image/light_path.h"
+#include "image/row_bands.h"
+
+namespace scotopic {
+namespace {
+
+bool finite_signals(const PixelRows& rows, std::size_t i) {
+  const auto fine = [i](const float* plane) { return plane == nullptr || std::isfinite(plane[i]); };
+  return fine(rows.cone_l) && fine(rows.cone_m) && fine(rows.cone_s) && fine(rows.rod);
+}
+
+bool finite_pixel(const PixelRows& rows, std::size_t i) {
+  return std::isfinite(rows.r[i]) && std::isfinite(rows.g[i]) && std::isfinite(rows.b[i]) && finite_signals(rows, i);
+}
+
+void clean_pixel(const PixelRows& rows, std::size_t i) {
+  const bool black = !finite_signals(rows, i);
+  for (float* plane : {rows.r, rows.g, rows.b})
+    if (black || !std::isfinite(plane[i])) plane[i] = 0;
+}
+
+}  // namespace
+
+RowOperator NonFiniteWatch::watched(RowOperator apply) const {
+  if (!apply && policy_ != NonFinite::clean) return {};
+  return [clean = policy_ == NonFinite::clean, count = count_, apply = std::move(apply)](const PixelRows& rows,
+                                                                                         std::uint8_t* touched) {
+    std::vector<std::size_t> bad;
+    for (std::size_t i = 0; i < rows.count; ++i)
+      if (!finite_pixel(rows, i)) bad.push_back(i);
+    if (clean)
+      for (const std::size_t i : bad) clean_pixel(rows, i);
+    if (apply) apply(rows, touched);
+    else std::fill_n(touched, rows.count, std::uint8_t{0});
+    if (bad.empty()) return;
+    *count += bad.size();
+    if (clean)
+      for (const std::size_t i : bad) touched[i] = 1;
+  };
+}
+
+NonFinitePixels find_non_finite(PixelSource& source, const ImageLayout& layout, const ColourConfig& config) {
+  NonFinitePixels found;
+  for (const LightPicture& light : layout.light) {
+    const Picture& picture = source.pictures()[light.index];
+    if (picture.level_x != 0 || picture.level_y != 0) continue;
+    const LightReader reader(light.channels, config, light.space);
+    LightRow row(static_cast<std::size_t>(picture.data.width()));
+    each_band(picture, false, [&](int y0, int rows) {
+      Band band;
+      source.read(light.index, y0, rows, band);
+      for (int y = 0; y < rows; ++y) {
+        reader.read(band, y, row);
+        const PixelRows pixels = row.pixels(reader.receptors());
+        for (std::size_t i = 0; i < pixels.count; ++i)
+          if (!finite_pixel(pixels, i) && found.count++ == 0)
+            found.x = picture.data.x0 + static_cast<int>(i), found.y = y0 + y;
+      }
+    });
+  }
+  return found;
+}
+
+std::string describe(const NonFinitePixels& pixels) {
+  return fmt::format("{} {} not finite, the first at ({}, {})", pixels.count,
+                     pixels.count == 1 ? "pixel is" : "pixels are", pixels.x, pixels.y);
+}
+
+void refuse_non_finite(PixelSource& source, const ImageLayout& layout, const ColourConfig& config) {
+  const NonFinitePixels pixels = find_non_finite(source, layout, config);
+  if (pixels.count > 0) throw Error(ExitCode::input, source.file(), describe(pixels));
+}
+
+}  // namespace scotopic
