@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <locale>
 
+#include "image/apply_image.h"
 #include "image/error.h"
 #include "image/spectral_source.h"
 #include "receptors/receptor_space.h"
@@ -120,12 +121,18 @@ TEST(SpectralSource, scanlines_tiles_windows_and_every_lossless_compression_are_
     }
 }
 
-TEST(SpectralSource, reading_in_bands_of_rows_gives_the_same_bits) {
+TEST(SpectralSource, any_number_of_rows_at_once_and_of_threads_gives_the_same_bits) {
   const Scene scene;
   const test::TemporaryFolder folder;
   test::write_exr(folder / "image.exr", scene.image(scene.bands()));
   const auto source = open(folder / "image.exr");
-  EXPECT_EQ(read_all(*source), read_all(*source, 16));
+  const auto at_once = read_all(*source);
+  EXPECT_EQ(at_once, read_all(*source, 16));
+  for (const int threads : {1, 2, 7}) {
+    set_threads(threads);
+    EXPECT_EQ(at_once, read_all(*source)) << threads << " threads";
+  }
+  set_threads(0);
   EXPECT_EQ(source->pictures()[0].chunk_rows, 16);
 }
 
