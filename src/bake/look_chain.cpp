@@ -67,6 +67,20 @@ class Nodes {
   std::vector<float> r_, g_, b_;
 };
 
+/// Shares of nothing are undefined, but between nodes they count: those of the next node that has some.
+void fill_undefined(Lut3DStep& lut) {
+  const std::size_t n = lut.edge, row = 3 * n;
+  for (std::size_t at = 0; at < lut.values.size();
+       at += row)  // black: the shares of the lowest level above it
+    for (std::size_t c = 0; c < 2; ++c) lut.values[at + c] = lut.values[at + 3 + c];
+  constexpr double none = 1e-5;
+  for (std::size_t i = 0; i < n; ++i)  // pure green stays pure green: no blue and red to share
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t at = 3 * (i * n * n + k);
+      if (lut.values[at + 1] < none) lut.values[at] = lut.values[at + row];
+    }
+}
+
 /// Its nodes hold positions on the same axes as its input does: where the operator changes nothing, neither
 /// does it.
 Lut3DStep core(const AppearanceParameters& p, const Axes& axes, const Matrix3<double>& abc_from_rgb,
@@ -82,10 +96,7 @@ Lut3DStep core(const AppearanceParameters& p, const Axes& axes, const Matrix3<do
     const Vec3<double> t = axes.positions(abc);
     std::copy(t.begin(), t.end(), lut.values.begin() + static_cast<std::ptrdiff_t>(3 * n));
   }
-  // The lowest level is black, which has no shares of its own: those of the next, so that the last step down
-  // to black keeps its colour.
-  for (std::size_t n = 0; n < nodes.size(); n += edge)
-    for (std::size_t c = 0; c < 2; ++c) lut.values[3 * n + c] = lut.values[3 * (n + 1) + c];
+  fill_undefined(lut);
   return lut;
 }
 

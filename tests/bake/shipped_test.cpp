@@ -1,0 +1,58 @@
+// What lies in luts/ and ocio_config/ is what this build bakes, to the byte.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "bake/inspect.h"
+#include "bake/ladder.h"
+#include "bake/look_set.h"
+#include "bake/support.h"
+
+namespace scotopic {
+namespace {
+
+const std::string root = SCOTOPIC_SOURCE_DIR;
+
+std::vector<LookSpec> shipped_specs(const ColourConfig& own) {
+  std::vector<LookSpec> specs;
+  for (const Model model : {Model::filament2021, Model::kirk2011})
+    for (const LadderStep& step : ladder) {
+      LookSpec spec;
+      spec.parameters = test::adapted_to(step.adaptation, "rec709", model);
+      spec.space = own.working_space();
+      if (model == Model::filament2021 || !is_identity(spec.parameters)) specs.push_back(spec);
+    }
+  return specs;
+}
+
+TEST(Shipped, luts_manifest_and_config_are_rebuilt_byte_for_byte) {
+  const ColourConfig own = ColourConfig::own();
+  LookSet set = bake_set(shipped_specs(own), own, SCOTOPIC_VERSION, true);
+  add_highlights(set, SCOTOPIC_VERSION);
+  for (const TextFile& lut : set.luts)
+    EXPECT_TRUE(test::read_text(root + "/luts/" + lut.name) == lut.text)
+        << lut.name << " differs from what is baked";
+  EXPECT_TRUE(test::read_text(root + "/ocio_config/config.ocio") == look_config_text(set));
+  const std::string manifest = test::read_text(root + "/luts/MANIFEST");
+  const std::string command =
+      "scotopic bake --adaptation ladder --beside kirk2011 --model filament2021 --size 33 "
+      "--config DIR --luts LUTS";
+  EXPECT_EQ(manifest, manifest_text(set, SCOTOPIC_VERSION, command));
+}
+
+TEST(Shipped, manifest_is_complete_and_all_is_at_most_20_mb) {
+  for (const std::string& problem : manifest_problems(root + "/luts")) ADD_FAILURE() << problem;
+  std::uintmax_t bytes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(root + "/luts")) bytes += entry.file_size();
+  std::printf("luts/ holds %.1f MB\n", static_cast<double>(bytes) / 1e6);
+  EXPECT_LE(bytes, 20000000u);
+}
+
+TEST(Shipped, the_context_look_has_a_file_for_every_step_of_the_ladder) {
+  const ColourConfig config = ColourConfig::from_file(root + "/ocio_config/config.ocio");
+  for (const Inspected& it : inspect_config(config, "Mesopic by SCOTOPIC_LA"))
+    for (const std::string& problem : it.problems) ADD_FAILURE() << problem;
+}
+
+}  // namespace
+}  // namespace scotopic
