@@ -184,7 +184,7 @@ class PixelOperator {
   }
 
   // The shifted and projected colour; `cones`, of the colour that came in, become those of the result.
-  Triple<V> shifted(const PixelVector<V>& p, Triple<V>& cones, V rod, V share) const {
+  HWY_INLINE Triple<V> shifted(const PixelVector<V>& p, Triple<V>& cones, V rod, V share) const {
     const V w = hn::Mul(set(k_.shift), share);
     const Triple<V> response = scaled(w, rod_response(has_cones(p) ? p.cones : cones, rod));
     cones = sum(cones, times(k_.lms_shift, response));
@@ -193,7 +193,7 @@ class PixelOperator {
     return select(hn::Gt(w, hn::Zero(d_)), rgb, p.rgb);
   }
 
-  Triple<V> projected(const Triple<V>& moved, const Triple<V>& in, Triple<V>& cones) const {
+  HWY_INLINE Triple<V> projected(const Triple<V>& moved, const Triple<V>& in, Triple<V>& cones) const {
     const Triple<V> target = gamut_is_rgb() ? moved : times(k_.gamut_from_rgb, moved);
     const Triple<V> source = gamut_is_rgb() ? in : times(k_.gamut_from_rgb, in);
     const V zero = hn::Zero(d_);
@@ -269,7 +269,7 @@ class PixelOperator {
     return select(hn::Lt(keep, one()), faded, rgb);
   }
 
-  M safko(PixelVector<V>& p, M active, M& doubtful) const {
+  HWY_INLINE M safko(PixelVector<V>& p, M active, M& doubtful) const {
     const Triple<V> q = p.has_cones ? p.cones : times(k_.lms_from_rgb, p.rgb);
     if constexpr (needs_more_digits) doubtful = hn::And(active, below_zero(q));
     const V rod = rod_signal(p, dot(k_.y_row, p.rgb));
