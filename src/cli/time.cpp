@@ -201,10 +201,12 @@ void add_time(CLI::App& program, Invocation& invocation) {
       ->capture_default_str();
   verb.add_option("--plot", options->plot, "Error against time of the operator's ways, as SVG")
       ->type_name("FILE");
-  verb.add_flag("--csv", options->csv, "Comma-separated values in place of the table");
+  CLI::Option* const csv =
+      verb.add_flag("--csv", options->csv, "Comma-separated values in place of the table");
   add_operator_options(verb, options->appearance);
   add_input_options(verb, options->image);
   add_common_options(verb, options->common);
+  csv->excludes(verb.get_option("--json"));
   on_command_line(verb, invocation, options, run_time);
 }
 
