@@ -32,7 +32,8 @@ OCIO::FileTransformRcPtr file_transform(const std::string& name, OCIO::Interpola
   return file;
 }
 
-OCIO::TransformRcPtr transform_of(const LookEntry& look) {
+OCIO::ConstTransformRcPtr transform_of(const LookEntry& look) {
+  if (look.transform) return look.transform;
   if (look.matrix) return matrix_transform(*look.matrix);
   return file_transform(look.file, OCIO::INTERP_TETRAHEDRAL);
 }

@@ -11,13 +11,14 @@
 
 namespace scotopic {
 
-/// A look as a config holds it. With neither file nor matrix it changes nothing.
+/// A look as a config holds it. It has a file, a matrix or a transform.
 struct LookEntry {
   std::string name;
   std::string description;
-  std::string file;                       ///< found on the config's search path; may hold $VARIABLES
-  std::optional<Matrix3<double>> matrix;  ///< instead of a file
-  bool view = true;                       ///< on the displays' menus, too
+  std::string file;                               ///< found on the config's search path; may hold $VARIABLES
+  std::optional<Matrix3<double>> matrix;          ///< instead of a file
+  OCIO_NAMESPACE::ConstTransformRcPtr transform;  ///< instead of either
+  bool view = true;                               ///< on the displays' menus, too
 };
 
 /// Where in a config looks go.

@@ -12,8 +12,6 @@ namespace scotopic {
 namespace {
 
 constexpr const char* highlight_file = "highlight_safe.clf";
-// Beside the config, or beside its folder: an archive of the first kind has no paths that lead out of it.
-constexpr const char* search_path = "luts:../luts";
 
 LookEntry entry_of(const BakedLook& look) {
   const AppearanceParameters& p = look.spec.parameters;
@@ -90,7 +88,7 @@ std::string manifest_text(const LookSet& set, const std::string& version, const 
 }
 
 std::string look_config_text(const LookSet& set) {
-  return config_text(*make_look_config(set.entries, highlight_file, search_path));
+  return config_text(*make_look_config(set.entries, highlight_file, lut_search_path));
 }
 
 }  // namespace scotopic

@@ -32,6 +32,10 @@ void add_highlights(LookSet& set, const std::string& version);
 /// luts/MANIFEST: what `sha256sum -c` checks; a comment before each file states its error.
 std::string manifest_text(const LookSet& set, const std::string& version, const std::string& command);
 
+/// Where configs look for LUTs: beside them, or beside their folder. (An archive of the first kind has no
+/// paths that lead out of it.)
+inline constexpr const char* lut_search_path = "luts:../luts";
+
 /// The own config with the set's looks, its LUTs in folder luts or ../luts.
 std::string look_config_text(const LookSet& set);
 

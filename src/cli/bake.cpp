@@ -9,6 +9,7 @@
 #include "bake/inspect.h"
 #include "bake/ladder.h"
 #include "bake/look_set.h"
+#include "bake/ocio1_twin.h"
 #include "cli/operator_options.h"
 #include "cli/program.h"
 #include "cli/values.h"
@@ -230,12 +231,15 @@ int bake_config(const BakeOptions& o, const ColourConfig& config, const Console&
     console.note(said(look));
   }
   const std::string text = look_config_text(set);
+  const Ocio1Twin twin = make_ocio1_twin(specs, lut_search_path);
+  set.luts.insert(set.luts.end(), twin.luts.begin(), twin.luts.end());
   const std::string luts = o.luts.empty() ? o.new_config + "/luts" : o.luts;
   make_folder(o.new_config);
   make_folder(luts);
   // The config last: it is never there without its files.
   for (const TextFile& lut : set.luts) write_text(luts + "/" + lut.name, lut.text);
   write_text(luts + "/MANIFEST", manifest_text(set, SCOTOPIC_VERSION, command_of(o)));
+  write_text(o.new_config + "/config_ocio1.ocio", twin.config);
   write_text(o.new_config + "/config.ocio", text);
   nlohmann::ordered_json results = nlohmann::ordered_json::array();
   for (const BakedLook& look : set.looks) results.push_back(json_of(look));
@@ -311,7 +315,8 @@ void add_bake(CLI::App& program, Invocation& invocation) {
   add("--colorspace", o.colourspace, "What the LUT takes and gives; else the config's scene_linear", "NAME");
   add("--iconfig", o.colour_config, "The config that --colorspace is of; else $OCIO, else the program's own",
       "FILE");
-  add("--config", o.new_config, "Write a whole config here: config.ocio, luts/", "NEW_DIR");
+  add("--config", o.new_config, "Write a whole config here: config.ocio, luts/, and a twin for OpenColorIO 1",
+      "NEW_DIR");
   add("--luts", o.luts, "With --config: the LUTs' folder, where it is not luts/ beside the config", "DIR");
   add("--into", o.into, "Add the looks to this config; its former text is kept beside it", "STUDIO_CONFIG");
   verb.add_flag("--dry-run", o.dry_run, "With --into: print what would change, write nothing");
