@@ -17,44 +17,91 @@
 HWY_BEFORE_NAMESPACE();
 namespace scotopic::HWY_NAMESPACE {
 
-// Planes are float; D may be double.
-template <class D>
-struct Planes {
-  using Narrow = hn::Rebind<float, D>;
-  using V = hn::Vec<D>;
-
-  static V load(D d, const float* from) {
-    if constexpr (sizeof(hn::TFromD<D>) == sizeof(float)) return hn::LoadU(d, from);
-    else return hn::PromoteTo(d, hn::LoadU(Narrow(), from));
-  }
-  static void store(D d, V v, float* to) {
-    if constexpr (sizeof(hn::TFromD<D>) == sizeof(float)) hn::StoreU(v, d, to);
-    else hn::StoreU(hn::DemoteTo(Narrow(), v), Narrow(), to);
-  }
+// Pixels of R, G, B, A next to each other.
+struct RgbaRows {
+  float* rgba;
+  std::size_t count;
 };
 
+// Pixels are float in memory; D may be double.
+template <class D>
+using Narrow = hn::Rebind<float, D>;
+
+template <class D>
+HWY_INLINE hn::Vec<D> widened(D d, hn::Vec<Narrow<D>> v) {
+  if constexpr (sizeof(hn::TFromD<D>) == sizeof(float))
+    return v;
+  else
+    return hn::PromoteTo(d, v);
+}
+template <class D>
+HWY_INLINE hn::Vec<Narrow<D>> narrowed(D, hn::Vec<D> v) {
+  if constexpr (sizeof(hn::TFromD<D>) == sizeof(float))
+    return v;
+  else
+    return hn::DemoteTo(Narrow<D>(), v);
+}
+template <class D>
+HWY_INLINE hn::Vec<D> load(D d, const float* from) {
+  return widened(d, hn::LoadU(Narrow<D>(), from));
+}
+template <class D>
+HWY_INLINE void store(D d, hn::Vec<D> v, float* to) {
+  hn::StoreU(narrowed(d, v), Narrow<D>(), to);
+}
+
+// Loads pixels; `alpha` is for the layout that has it. Without receptors, the stages being the `usual`.
 template <bool usual, class D>
-HWY_INLINE auto load_pixels(D d, const PixelRows& rows, std::size_t at) {
-  using V = hn::Vec<D>;
-  const auto load = [&](const float* plane) { return plane ? Planes<D>::load(d, plane + at) : hn::Zero(d); };
-  if constexpr (usual) {
-    const V none = hn::Zero(d);
-    return PixelVector<V>{{Planes<D>::load(d, rows.r + at), Planes<D>::load(d, rows.g + at),
-                           Planes<D>::load(d, rows.b + at)}, {none, none, none}, none, false, false};
-  }
-  return PixelVector<hn::Vec<D>>{{load(rows.r), load(rows.g), load(rows.b)},
-                                 {load(rows.cone_l), load(rows.cone_m), load(rows.cone_s)},
-                                 load(rows.rod),
-                                 rows.cone_l != nullptr,
-                                 rows.rod != nullptr};
+HWY_INLINE PixelVector<hn::Vec<D>> load_pixels(D d, const PixelRows& rows, std::size_t at,
+                                               hn::Vec<Narrow<D>>&) {
+  const auto zero = hn::Zero(d);
+  const Triple<hn::Vec<D>> rgb = {load(d, rows.r + at), load(d, rows.g + at), load(d, rows.b + at)};
+  if constexpr (usual) return {rgb, {zero, zero, zero}, zero, false, false};
+  const auto given = [&](const float* plane) { return plane ? load(d, plane + at) : zero; };
+  return {rgb,
+          {given(rows.cone_l), given(rows.cone_m), given(rows.cone_s)},
+          given(rows.rod),
+          rows.cone_l != nullptr,
+          rows.rod != nullptr};
+}
+template <bool, class D>
+HWY_INLINE PixelVector<hn::Vec<D>> load_pixels(D d, const RgbaRows& rows, std::size_t at,
+                                               hn::Vec<Narrow<D>>& alpha) {
+  auto r = alpha, g = alpha, b = alpha;
+  hn::LoadInterleaved4(Narrow<D>(), rows.rgba + 4 * at, r, g, b, alpha);
+  const auto zero = hn::Zero(d);
+  return {{widened(d, r), widened(d, g), widened(d, b)}, {zero, zero, zero}, zero, false, false};
+}
+
+template <class D>
+HWY_INLINE void store_pixels(D d, const Triple<hn::Vec<D>>& rgb, const PixelRows& rows, std::size_t at,
+                             hn::Vec<Narrow<D>>) {
+  store(d, rgb.x, rows.r + at);
+  store(d, rgb.y, rows.g + at);
+  store(d, rgb.z, rows.b + at);
+}
+template <class D>
+HWY_INLINE void store_pixels(D d, const Triple<hn::Vec<D>>& rgb, const RgbaRows& rows, std::size_t at,
+                             hn::Vec<Narrow<D>> alpha) {
+  hn::StoreInterleaved4(narrowed(d, rgb.x), narrowed(d, rgb.y), narrowed(d, rgb.z), alpha, Narrow<D>(),
+                        rows.rgba + 4 * at);
 }
 
 // A vector's worth of results, and a bit per lane.
 struct Lanes {
   HWY_ALIGN float r[HWY_MAX_BYTES / sizeof(float)], g[HWY_MAX_BYTES / sizeof(float)],
       b[HWY_MAX_BYTES / sizeof(float)];
+
+  template <class D>
+  void set(D d, const Triple<hn::Vec<D>>& rgb) {
+    store(d, rgb.x, r), store(d, rgb.y, g), store(d, rgb.z, b);
+  }
   void copy(std::size_t lane, const PixelRows& rows, std::size_t to) const {
     rows.r[to] = r[lane], rows.g[to] = g[lane], rows.b[to] = b[lane];
+  }
+  void copy(std::size_t lane, const RgbaRows& rows, std::size_t to) const {
+    float* const pixel = rows.rgba + 4 * to;
+    pixel[0] = r[lane], pixel[1] = g[lane], pixel[2] = b[lane];
   }
 };
 
@@ -86,29 +133,31 @@ struct Operators {
 };
 
 // Computes in double the pixels at `at` that `bits` names; `lanes` pixels may be read.
-HWY_NOINLINE void apply_exactly(const PixelOperator<hn::ScalableTag<double>>& op, const PixelRows& rows, std::size_t at,
-                   std::size_t lanes, std::uint64_t bits) {
+template <class Rows>
+HWY_NOINLINE void apply_exactly(const PixelOperator<hn::ScalableTag<double>>& op, const Rows& rows,
+                                std::size_t at, std::size_t lanes, std::uint64_t bits) {
   const hn::ScalableTag<double> d;
   Lanes out;
   for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
-    auto p = load_pixels<false>(d, rows, at + i);
+    auto alpha = hn::Zero(Narrow<hn::ScalableTag<double>>());
+    auto p = load_pixels<false>(d, rows, at + i, alpha);
     auto ignored = hn::MaskFromVec(hn::Zero(d));
     op(p, ignored);
-    Planes<hn::ScalableTag<double>>::store(d, p.rgb.x, out.r);
-    Planes<hn::ScalableTag<double>>::store(d, p.rgb.y, out.g);
-    Planes<hn::ScalableTag<double>>::store(d, p.rgb.z, out.b);
+    out.set(d, p.rgb);
     for (std::size_t k = 0; k < hn::Lanes(d); ++k)
       if (bits >> (i + k) & 1u) out.copy(k, rows, at + i + k);
   }
 }
 
 // One vector of pixels at `at`. Pixels that are not touched keep their bits: they are not stored.
-template <typename T, bool usual>
-HWY_INLINE void apply_vector(const Operators<T, usual>& op, const PixelRows& rows, std::size_t at, std::uint8_t* touched) {
+template <typename T, bool usual, class Rows>
+HWY_INLINE void apply_vector(const Operators<T, usual>& op, const Rows& rows, std::size_t at,
+                             std::uint8_t* touched) {
   using D = hn::ScalableTag<T>;
   const D d;
   const std::size_t lanes = hn::Lanes(d);
-  auto p = load_pixels<usual>(d, rows, at);
+  auto alpha = hn::Zero(Narrow<D>());
+  auto p = load_pixels<usual>(d, rows, at, alpha);
   auto doubtful = hn::MaskFromVec(hn::Zero(d));
   const auto active = op.main(p, doubtful);
   const std::uint64_t active_bits = lane_bits(d, active);
@@ -116,23 +165,20 @@ HWY_INLINE void apply_vector(const Operators<T, usual>& op, const PixelRows& row
   if (active_bits == 0) return;
   const std::uint64_t exact_bits = std::is_same_v<T, double> ? 0 : lane_bits(d, doubtful);
   if (hn::AllTrue(d, active) && exact_bits == 0) {
-    Planes<D>::store(d, p.rgb.x, rows.r + at);
-    Planes<D>::store(d, p.rgb.y, rows.g + at);
-    Planes<D>::store(d, p.rgb.z, rows.b + at);
+    store_pixels(d, p.rgb, rows, at, alpha);
     return;
   }
   if (exact_bits) apply_exactly(op.exact, rows, at, lanes, exact_bits);
   Lanes out;
-  Planes<D>::store(d, p.rgb.x, out.r);
-  Planes<D>::store(d, p.rgb.y, out.g);
-  Planes<D>::store(d, p.rgb.z, out.b);
+  out.set(d, p.rgb);
   for (std::size_t i = 0; i < lanes; ++i)
     if ((active_bits & ~exact_bits) >> i & 1u) out.copy(i, rows, at + i);
 }
 
 // The last pixels, fewer than a vector: through a padded copy, by the same instructions.
 template <typename T, bool usual>
-HWY_NOINLINE void apply_tail(const Operators<T, usual>& op, const PixelRows& rows, std::size_t at, std::uint8_t* touched) {
+HWY_NOINLINE void apply_tail(const Operators<T, usual>& op, const PixelRows& rows, std::size_t at,
+                             std::uint8_t* touched) {
   constexpr std::size_t most = HWY_MAX_BYTES / sizeof(float);
   float copy[7][most] = {};
   std::uint8_t touched_copy[most] = {};
@@ -142,8 +188,9 @@ HWY_NOINLINE void apply_tail(const Operators<T, usual>& op, const PixelRows& row
     std::copy_n(plane + at, count, to);
     return to;
   };
-  const PixelRows padded = {fill(rows.r, copy[0]),      fill(rows.g, copy[1]),      fill(rows.b, copy[2]),
-                            fill(rows.cone_l, copy[3]), fill(rows.cone_m, copy[4]), fill(rows.cone_s, copy[5]),
+  const PixelRows padded = {fill(rows.r, copy[0]),      fill(rows.g, copy[1]),
+                            fill(rows.b, copy[2]),      fill(rows.cone_l, copy[3]),
+                            fill(rows.cone_m, copy[4]), fill(rows.cone_s, copy[5]),
                             fill(rows.rod, copy[6]),    most};
   apply_vector(op, padded, 0, touched_copy);
   std::copy_n(copy[0], count, rows.r + at);
@@ -152,8 +199,21 @@ HWY_NOINLINE void apply_tail(const Operators<T, usual>& op, const PixelRows& row
   if (touched) std::copy_n(touched_copy, count, touched + at);
 }
 
-template <bool usual, typename T>
-void apply_stages(const BatchConstants<T>& main, const BatchConstants<double>& exact, const PixelRows& rows,
+template <typename T, bool usual>
+HWY_NOINLINE void apply_tail(const Operators<T, usual>& op, const RgbaRows& rows, std::size_t at,
+                             std::uint8_t* touched) {
+  constexpr std::size_t most = HWY_MAX_BYTES / sizeof(float);
+  float copy[4 * most] = {};
+  std::uint8_t touched_copy[most] = {};
+  const std::size_t count = rows.count - at;
+  std::copy_n(rows.rgba + 4 * at, 4 * count, copy);
+  apply_vector(op, RgbaRows{copy, most}, 0, touched_copy);
+  std::copy_n(copy, 4 * count, rows.rgba + 4 * at);
+  if (touched) std::copy_n(touched_copy, count, touched + at);
+}
+
+template <bool usual, typename T, class Rows>
+void apply_stages(const BatchConstants<T>& main, const BatchConstants<double>& exact, const Rows& rows,
                   std::uint8_t* touched) {
   const Operators<T, usual> op{{hn::ScalableTag<T>(), main}, {hn::ScalableTag<double>(), exact}};
   const std::size_t lanes = hn::Lanes(hn::ScalableTag<T>());
@@ -162,39 +222,53 @@ void apply_stages(const BatchConstants<T>& main, const BatchConstants<double>& e
   if (at < rows.count) apply_tail(op, rows, at, touched);
 }
 
-template <typename T>
-void apply_rows(const BatchConstants<T>& main, const BatchConstants<double>& exact, const PixelRows& rows,
+bool has_receptors(const PixelRows& rows) { return rows.cone_l || rows.rod; }
+bool has_receptors(const RgbaRows&) { return false; }
+
+template <typename T, class Rows>
+void apply_type(const BatchConstants<T>& main, const BatchConstants<double>& exact, const Rows& rows,
                 std::uint8_t* touched) {
-  if (main.usual && !rows.cone_l && !rows.rod) apply_stages<true>(main, exact, rows, touched);
-  else apply_stages<false>(main, exact, rows, touched);
+  if (main.usual && !has_receptors(rows))
+    apply_stages<true>(main, exact, rows, touched);
+  else
+    apply_stages<false>(main, exact, rows, touched);
 }
 
-// All ways in: `main` is null for double inside.
-void apply_planes(const BatchConstants<float>* main, const BatchConstants<double>& exact, const PixelRows& rows,
-                  std::uint8_t* touched) {
-  if (main) apply_rows(*main, exact, rows, touched);
-  else apply_rows(exact, exact, rows, touched);
+// `main` is null for double inside.
+template <class Rows>
+void apply_rows(const BatchConstants<float>* main, const BatchConstants<double>& exact, const Rows& rows,
+                std::uint8_t* touched) {
+  if (main)
+    apply_type(*main, exact, rows, touched);
+  else
+    apply_type(exact, exact, rows, touched);
 }
 
-template <typename E, class Layout>
-void apply_layout(const BatchConstants<float>* main, const BatchConstants<double>& exact, const Layout& layout,
-                  std::size_t count, std::uint8_t* touched) {
-  apply_in_blocks<E>(layout, count, touched, [&](const PixelRows& block, std::uint8_t* touched_here) {
+// All ways in.
+void apply_planes(const BatchConstants<float>* main, const BatchConstants<double>& exact,
+                  const PixelRows& rows, std::uint8_t* touched) {
+  apply_rows(main, exact, rows, touched);
+}
+void apply_rgba(const BatchConstants<float>* main, const BatchConstants<double>& exact, float* rgba,
+                std::size_t count, std::uint8_t* touched) {
+  apply_rows(main, exact, RgbaRows{rgba, count}, touched);
+}
+
+template <class Layout>
+void apply_layout(const BatchConstants<float>* main, const BatchConstants<double>& exact,
+                  const Layout& layout, std::size_t count, std::uint8_t* touched) {
+  apply_in_blocks(layout, count, touched, [&](const PixelRows& block, std::uint8_t* touched_here) {
     apply_planes(main, exact, block, touched_here);
   });
 }
 
-void apply_half_planes(const BatchConstants<float>* main, const BatchConstants<double>& exact, const HalfRows& rows,
-                       std::uint8_t* touched) {
-  apply_layout<std::uint16_t>(main, exact, PlaneLayout<std::uint16_t>{rows.r, rows.g, rows.b}, rows.count, touched);
+void apply_half_planes(const BatchConstants<float>* main, const BatchConstants<double>& exact,
+                       const HalfRows& rows, std::uint8_t* touched) {
+  apply_layout(main, exact, HalfPlanes{rows.r, rows.g, rows.b}, rows.count, touched);
 }
-void apply_rgba(const BatchConstants<float>* main, const BatchConstants<double>& exact, float* rgba, std::size_t count,
-                std::uint8_t* touched) {
-  apply_layout<float>(main, exact, RgbaLayout<float>{rgba}, count, touched);
-}
-void apply_half_rgba(const BatchConstants<float>* main, const BatchConstants<double>& exact, std::uint16_t* rgba,
-                     std::size_t count, std::uint8_t* touched) {
-  apply_layout<std::uint16_t>(main, exact, RgbaLayout<std::uint16_t>{rgba}, count, touched);
+void apply_half_rgba(const BatchConstants<float>* main, const BatchConstants<double>& exact,
+                     std::uint16_t* rgba, std::size_t count, std::uint8_t* touched) {
+  apply_layout(main, exact, HalfRgba{rgba}, count, touched);
 }
 
 }  // namespace scotopic::HWY_NAMESPACE
@@ -238,7 +312,8 @@ void AppearanceBatch::apply_rgba(float* rgba, std::size_t count, std::uint8_t* t
   HWY_DYNAMIC_DISPATCH(apply_rgba)(constants_->main(), constants_->exact, rgba, count, touched);
 }
 
-void AppearanceBatch::apply_rgba(std::uint16_t* rgba, std::size_t count, std::uint8_t* touched) const noexcept {
+void AppearanceBatch::apply_rgba(std::uint16_t* rgba, std::size_t count,
+                                 std::uint8_t* touched) const noexcept {
   HWY_DYNAMIC_DISPATCH(apply_half_rgba)(constants_->main(), constants_->exact, rgba, count, touched);
 }
 

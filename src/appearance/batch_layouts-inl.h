@@ -1,6 +1,6 @@
-// Rows that are not planes of float: taken apart in blocks that stay in the nearest cache, and put together again.
-// Compiled once per SIMD target (see batch.cpp). The same bits on every target: halves are converted by integer
-// arithmetic, since not every machine has instructions for them.
+// Rows of halves: taken apart in blocks of float planes that stay in the nearest cache, and put together
+// again. Compiled once per SIMD target (see batch.cpp). The same bits on every target: halves are converted
+// by integer arithmetic, since not every machine has instructions for them.
 #if defined(SCOTOPIC_BATCH_LAYOUTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SCOTOPIC_BATCH_LAYOUTS_INL_H_
 #undef SCOTOPIC_BATCH_LAYOUTS_INL_H_
@@ -32,7 +32,8 @@ HWY_INLINE FloatVector float_from(hn::Vec<HalfTag> half) {
   const hn::RebindToSigned<FloatTag> i;
   const auto bits = hn::PromoteTo(u, half);
   const auto magnitude = hn::And(bits, hn::Set(u, 0x7fff));
-  // 13 more bits of mantissa; the exponent's bias is 127, not 15, and its largest, of NaN and infinity, 255, not 31.
+  // 13 more bits of mantissa; the exponent's bias is 127, not 15, and its largest, of NaN and infinity, 255,
+  // not 31.
   const auto widened = hn::ShiftLeft<13>(magnitude);
   const auto odd = hn::IfThenElseZero(hn::Gt(magnitude, hn::Set(u, 0x7bff)), hn::Set(u, 112u << 23));
   const auto normal = hn::BitCast(d, hn::Add(hn::Add(widened, hn::Set(u, 112u << 23)), odd));
@@ -61,75 +62,68 @@ HWY_INLINE hn::Vec<HalfTag> half_from(FloatVector x) {
                                              hn::Or(sign, hn::IfThenElse(is_normal, normal, subnormal))));
 }
 
-HWY_INLINE FloatVector read(const float* from) { return hn::LoadU(FloatTag(), from); }
-HWY_INLINE FloatVector read(const std::uint16_t* from) { return float_from(hn::LoadU(HalfTag(), from)); }
-HWY_INLINE void write(FloatVector v, float* to) { hn::StoreU(v, FloatTag(), to); }
-HWY_INLINE void write(FloatVector v, std::uint16_t* to) { hn::StoreU(half_from(v), HalfTag(), to); }
-
-template <typename E>
-using ElementTag = std::conditional_t<std::is_same_v<E, float>, FloatTag, HalfTag>;
-HWY_INLINE FloatVector decoded(FloatVector v) { return v; }
-HWY_INLINE FloatVector decoded(hn::Vec<HalfTag> v) { return float_from(v); }
-template <typename E>
-HWY_INLINE auto encoded(FloatVector v) {
-  if constexpr (std::is_same_v<E, float>) return v;
-  else return half_from(v);
+HWY_INLINE FloatVector load_half(const std::uint16_t* from) { return float_from(hn::LoadU(HalfTag(), from)); }
+HWY_INLINE void store_half(const float* from, std::uint16_t* to) {
+  hn::StoreU(half_from(hn::LoadU(FloatTag(), from)), HalfTag(), to);
 }
 
-// Pixels in three planes of element E. `alpha` is for the layouts that have it.
-template <typename E>
-struct PlaneLayout {
-  E *r, *g, *b;
+// Pixels in three planes. `alpha` is for the layout that has it.
+struct HalfPlanes {
+  std::uint16_t *r, *g, *b;
 
-  void load(std::size_t at, const PixelRows& to, E*, std::size_t i) const {
-    write(read(r + at), to.r + i), write(read(g + at), to.g + i), write(read(b + at), to.b + i);
+  void load(std::size_t at, const PixelRows& to, std::uint16_t*, std::size_t i) const {
+    const FloatTag d;
+    hn::StoreU(load_half(r + at), d, to.r + i);
+    hn::StoreU(load_half(g + at), d, to.g + i);
+    hn::StoreU(load_half(b + at), d, to.b + i);
   }
-  void store(const PixelRows& from, const E*, std::size_t i, std::size_t at) const {
-    write(read(from.r + i), r + at), write(read(from.g + i), g + at), write(read(from.b + i), b + at);
+  void store(const PixelRows& from, const std::uint16_t*, std::size_t i, std::size_t at) const {
+    store_half(from.r + i, r + at), store_half(from.g + i, g + at), store_half(from.b + i, b + at);
   }
-  void copy_pixel(const PlaneLayout& from, std::size_t i, std::size_t at) const {
+  void copy_pixel(const HalfPlanes& from, std::size_t i, std::size_t at) const {
     r[at] = from.r[i], g[at] = from.g[i], b[at] = from.b[i];
   }
 };
 
 // Pixels of R, G, B, A next to each other.
-template <typename E>
-struct RgbaLayout {
-  E* rgba;
+struct HalfRgba {
+  std::uint16_t* rgba;
 
-  void load(std::size_t at, const PixelRows& to, E* alpha, std::size_t i) const {
-    const ElementTag<E> d;
-    auto r = hn::Zero(d), g = r, b = r, a = r;
-    hn::LoadInterleaved4(d, rgba + 4 * at, r, g, b, a);
-    write(decoded(r), to.r + i), write(decoded(g), to.g + i), write(decoded(b), to.b + i);
-    hn::StoreU(a, d, alpha + i);
+  void load(std::size_t at, const PixelRows& to, std::uint16_t* alpha, std::size_t i) const {
+    const HalfTag h;
+    const FloatTag d;
+    auto r = hn::Zero(h), g = r, b = r, a = r;
+    hn::LoadInterleaved4(h, rgba + 4 * at, r, g, b, a);
+    hn::StoreU(float_from(r), d, to.r + i);
+    hn::StoreU(float_from(g), d, to.g + i);
+    hn::StoreU(float_from(b), d, to.b + i);
+    hn::StoreU(a, h, alpha + i);
   }
-  void store(const PixelRows& from, const E* alpha, std::size_t i, std::size_t at) const {
-    const ElementTag<E> d;
-    hn::StoreInterleaved4(encoded<E>(read(from.r + i)), encoded<E>(read(from.g + i)), encoded<E>(read(from.b + i)),
-                          hn::LoadU(d, alpha + i), d, rgba + 4 * at);
+  void store(const PixelRows& from, const std::uint16_t* alpha, std::size_t i, std::size_t at) const {
+    const HalfTag h;
+    const auto half = [&](const float* plane) { return half_from(hn::LoadU(FloatTag(), plane + i)); };
+    hn::StoreInterleaved4(half(from.r), half(from.g), half(from.b), hn::LoadU(h, alpha + i), h,
+                          rgba + 4 * at);
   }
-  void copy_pixel(const RgbaLayout& from, std::size_t i, std::size_t at) const {
+  void copy_pixel(const HalfRgba& from, std::size_t i, std::size_t at) const {
     std::copy_n(from.rgba + 4 * i, 3, rgba + 4 * at);
   }
 };
 
 // Room for a vector's worth of pixels of a layout.
-template <typename E>
 struct LayoutRoom {
-  HWY_ALIGN E elements[4 * HWY_MAX_BYTES / sizeof(float)] = {};
   static constexpr std::size_t pixels = HWY_MAX_BYTES / sizeof(float);
+  HWY_ALIGN std::uint16_t elements[4 * pixels] = {};
 
-  PlaneLayout<E> as(const PlaneLayout<E>&) { return {elements, elements + pixels, elements + 2 * pixels}; }
-  RgbaLayout<E> as(const RgbaLayout<E>&) { return {elements}; }
+  HalfPlanes as(const HalfPlanes&) { return {elements, elements + pixels, elements + 2 * pixels}; }
+  HalfRgba as(const HalfRgba&) { return {elements}; }
 };
 
 // Some pixels as planes, and which of them the operator touched.
-template <typename E>
 struct Block {
   static constexpr std::size_t most = 512, room = most + HWY_MAX_BYTES / sizeof(float);
   HWY_ALIGN float planes[3][room];
-  HWY_ALIGN E alpha[room];
+  HWY_ALIGN std::uint16_t alpha[room];
   std::uint8_t touched[most];
   PixelRows rows;
 
@@ -140,22 +134,23 @@ struct Block {
 };
 
 // Fills a block from `at` on.
-template <typename E, class Layout>
-void load_block(const Layout& layout, std::size_t at, Block<E>& block) {
+template <class Layout>
+void load_block(const Layout& layout, std::size_t at, Block& block) {
   const std::size_t lanes = hn::Lanes(FloatTag()), count = block.rows.count;
   std::size_t i = 0;
   for (; i + lanes <= count; i += lanes) layout.load(at + i, block.rows, block.alpha, i);
   if (i == count) return;
-  LayoutRoom<E> room;
+  LayoutRoom room;
   const Layout rest = room.as(layout);
   for (std::size_t k = 0; i + k < count; ++k) rest.copy_pixel(layout, at + i + k, k);
   rest.load(0, block.rows, block.alpha, i);
 }
 
 // Stores those of `count` pixels, a vector or less, that were touched.
-template <typename E, class Layout>
-void store_touched(const Layout& layout, const Block<E>& block, std::size_t i, std::size_t at, std::size_t count) {
-  LayoutRoom<E> room;
+template <class Layout>
+void store_touched(const Layout& layout, const Block& block, std::size_t i, std::size_t at,
+                   std::size_t count) {
+  LayoutRoom room;
   const Layout results = room.as(layout);
   results.store(block.rows, block.alpha, i, 0);
   for (std::size_t k = 0; k < count; ++k)
@@ -163,22 +158,24 @@ void store_touched(const Layout& layout, const Block<E>& block, std::size_t i, s
 }
 
 // Puts a block back to where it came from.
-template <typename E, class Layout>
-void store_block(const Layout& layout, const Block<E>& block, std::size_t at) {
+template <class Layout>
+void store_block(const Layout& layout, const Block& block, std::size_t at) {
   const std::size_t lanes = hn::Lanes(FloatTag()), count = block.rows.count;
   if (!std::memchr(block.touched, 1, count)) return;
   const bool all = std::memchr(block.touched, 0, count) == nullptr;
   for (std::size_t i = 0; i < count; i += lanes) {
-    if (all && i + lanes <= count) layout.store(block.rows, block.alpha, i, at + i);
-    else store_touched(layout, block, i, at + i, std::min(lanes, count - i));
+    if (all && i + lanes <= count)
+      layout.store(block.rows, block.alpha, i, at + i);
+    else
+      store_touched(layout, block, i, at + i, std::min(lanes, count - i));
   }
 }
 
 // Calls apply(planes, touched) for blocks of the pixels of a layout.
-template <typename E, class Layout, class Apply>
+template <class Layout, class Apply>
 void apply_in_blocks(const Layout& layout, std::size_t count, std::uint8_t* touched, const Apply& apply) {
-  for (std::size_t at = 0; at < count; at += Block<E>::most) {
-    Block<E> block(std::min(Block<E>::most, count - at));
+  for (std::size_t at = 0; at < count; at += Block::most) {
+    Block block(std::min(Block::most, count - at));
     load_block(layout, at, block);
     apply(block.rows, block.touched);
     if (touched) std::copy_n(block.touched, block.rows.count, touched + at);
