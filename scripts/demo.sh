@@ -19,7 +19,7 @@ echo "exact: scotopic apply --adaptation $la"
 "$scotopic" apply "$night" -o demo/exact.exr --adaptation "$la"
 echo "look:  oiiotool --ociolook \"$look\""
 oiiotool --colorconfig "$config" "$night" \
-  --ociolook:from=scene_linear:to=scene_linear "$look" -o demo/look.exr
+  --ociolook:from=scene_linear:to=scene_linear "$look" --compression zip -o demo/look.exr
 echo "agreement of the look with the operator, every pixel exposed to mid-grey:"
 "$scotopic" check "$config" "$look" --image "$night"
 
