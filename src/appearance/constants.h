@@ -39,7 +39,7 @@ struct OperatorConstants {
 /// Result: linear RGB from LMS in luminance units, for Model::safko2019 alone.
 Matrix3<double> rgb_from_lms_cat02(const AppearanceParameters& parameters);
 
-/// s(L)/s(5), clamped to 1.
+/// s(L)/s(5), clamped to 1; to 4 ulp.
 template <typename T>
 T chroma_factor(T local_luminance) noexcept {
   constexpr T half = static_cast<T>(chroma_half_luminance);

@@ -22,7 +22,7 @@ class Kernel {
         gain_{to_t({preset.gain[0] * scale, preset.gain[1] * scale, preset.gain[2] * scale})},
         cone_shift_{(inverse(opponent_from_lms) * preset.opponent).to<T>()} {}
 
-  /// Gains g in (0, 1] of the three cone pathways. q, r: cone and rod signals in luminance units.
+  /// Gains g in (0, 1] of the three cone pathways, to 3 ulp. q, r: cone and rod signals in luminance units.
   Vec3<T> gains(const Vec3<T>& q, T r) const noexcept {
     const T rod = std::max(T(0), r);
     Vec3<T> g;
