@@ -6,7 +6,8 @@ namespace scotopic {
 /// Highest resolvable spatial frequency, cycles per degree, at adaptation luminance `adaptation` (cd/m2):
 /// 17.25 atan(1.4 log10 La + 0.35) + 25.72. Shlaer's 1937 measurements as fitted by Ward Larson, Rushmeier
 /// and Piatko 1997 (A visibility matching tone reproduction operator, Eq. 12). La is floored at 1e-5 cd/m2,
-/// where the fit still gives 1.2; a NaN counts as the floor.
+/// where the fit still gives 1.2; a NaN counts as the floor. To 32 ulp: down there two
+/// terms nearly cancel.
 double acuity_cutoff(double adaptation) noexcept;
 
 /// Standard deviation in pixels of the Gaussian whose transfer is 1/2 at acuity_cutoff(adaptation), i.e.

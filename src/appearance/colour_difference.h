@@ -15,7 +15,7 @@ struct Lab {
 inline constexpr Vec3<double> d65_white = {0.3127 / 0.3290, 1.0, (1 - 0.3127 - 0.3290) / 0.3290};
 
 /// CIE 1976 L*a*b* (ISO/CIE 11664-4) of an XYZ with Y = 1 for `white`. Its straight part goes on below 0, so
-/// the result is continuous for every finite input.
+/// the result is continuous for every finite input. Lightness to 5 ulp of 1 or of itself.
 Lab lab_from_xyz(const Vec3<double>& xyz, const Vec3<double>& white = d65_white) noexcept;
 
 /// CIEDE2000 (ISO/CIE 11664-6; Sharma, Wu & Dalal, Color Res. Appl. 30, 2005), kL = kC = kH = 1. Symmetric;
