@@ -174,13 +174,21 @@ class PixelOperator {
     return hn::IfThenElseZero(hn::Gt(total, zero), estimate);
   }
 
-  // Gains of the kernel times the rod signal.
+  // Gains of the kernel times the rod signal. In double one division serves the three roots, whose product its
+  // exponents hold; in float they would not.
   Triple<V> rod_response(const Triple<V>& q, V rod) const {
-    return {rod_response(q.x, rod, 0), rod_response(q.y, rod, 1), rod_response(q.z, rod, 2)};
+    const Triple<V> root = {gain_root(q.x, rod, 0), gain_root(q.y, rod, 1), gain_root(q.z, rod, 2)};
+    if constexpr (std::is_same_v<T, float>)
+      return {hn::Div(rod, root.x), hn::Div(rod, root.y), hn::Div(rod, root.z)};
+    const V xy = hn::Mul(root.x, root.y);
+    const V over_all = hn::Div(rod, hn::Mul(xy, root.z));
+    const V over_xy = hn::Mul(over_all, root.z);
+    return {hn::Mul(over_xy, root.y), hn::Mul(over_xy, root.x), hn::Mul(over_all, xy)};
   }
-  V rod_response(V q, V rod, std::size_t i) const {
+  // The reciprocal of a gain, at least 1.
+  V gain_root(V q, V rod, std::size_t i) const {
     const V signal = hn::Mul(set(k_.gain[i]), hn::Add(q, hn::Mul(set(k_.kappa[i]), rod)));
-    return hn::Div(rod, hn::Sqrt(hn::Add(one(), hn::Max(hn::Zero(d_), signal))));
+    return hn::Sqrt(hn::Add(one(), hn::Max(hn::Zero(d_), signal)));
   }
 
   // The shifted and projected colour; `cones`, of the colour that came in, become those of the result.
