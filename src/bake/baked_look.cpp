@@ -9,6 +9,7 @@
 #include "bake/look_chain.h"
 #include "bake/number_text.h"
 #include "bake/ocio_chain.h"
+#include "image/primaries.h"
 
 namespace OCIO = OCIO_NAMESPACE;
 
@@ -52,17 +53,25 @@ std::string stated(const BakeError& e, const LookSpec& spec) {
 
 }  // namespace
 
-bool is_linear(const ColourConfig& config, const std::string& space) {
+std::optional<Matrix3<double>> linear_space_matrix(const ColourConfig& config, const std::string& space) {
+  if (space == config.working_space()) return config.xyz_from_working();
   const RowConverter to = config.to_working(config.space(space));
-  const auto image = [&](float v) {
-    float p[3] = {v, v / 2, v / 4};
+  const auto image = [&](const Vec3<double>& v) {
+    float p[3] = {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
     to.apply(&p[0], &p[1], &p[2], 1);
     return Vec3<double>{p[0], p[1], p[2]};
   };
-  const Vec3<double> one = image(0.25f), two = image(0.5f), none = image(0.f);
-  for (std::size_t i = 0; i < 3; ++i)
-    if (std::abs(two[i] - 2 * one[i]) > 1e-4 * std::abs(two[i]) || none[i] != 0) return false;
-  return true;
+  const Matrix3<double> working_from_space =
+      transpose(Matrix3<double>{{{image({1, 0, 0}), image({0, 1, 0}), image({0, 0, 1})}}});
+  for (const Vec3<double>& probe : {Vec3<double>{0, 0, 0}, {0.18, 0.09, 0.045}, {0.25, 4, 16}}) {
+    const Vec3<double> got = image(probe), wanted = working_from_space * probe;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!(std::abs(got[i] - wanted[i]) <= 1e-5 * std::max({probe[0], probe[1], probe[2]})))
+        return std::nullopt;
+  }
+  const Matrix3<double> xyz = config.xyz_from_working() * working_from_space;
+  const NamedPrimaries* known = match_matrix(xyz);
+  return known ? xyz_d65_from_rgb(known->primaries) : xyz;
 }
 
 BakeError measure_encoded(const LookSpec& spec, const ColourConfig& config,

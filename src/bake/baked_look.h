@@ -20,8 +20,8 @@ struct BakedLook {
 /// A linear look of La >= 5 cd/m2 is an identity without a LUT.
 BakedLook bake_look(const LookSpec& spec, const ColourConfig& config, const std::string& version);
 
-/// Whether values of a space are proportional to light.
-bool is_linear(const ColourConfig& config, const std::string& space);
+/// CIE XYZ (D65) from values of a space, where these are proportional to light; else nullopt.
+std::optional<Matrix3<double>> linear_space_matrix(const ColourConfig& config, const std::string& space);
 
 /// Error of a processor that takes and gives values of spec.space, which is not linear.
 BakeError measure_encoded(const LookSpec& spec, const ColourConfig& config,

@@ -92,12 +92,13 @@ LookSpec spec_for(OperatorChoice choice, const BakeOptions& o, const ColourConfi
   spec.gamut = choice.gamut;
   spec.edge = edge_of(o);
   spec.space = o.colourspace.empty() ? config.working_space() : config.resolve(o.colourspace);
-  spec.encoded = !is_linear(config, spec.space);
-  // Linear light of other primaries: the operator itself works in them.
-  if (!spec.encoded && spec.space != config.working_space())
-    throw Error(ExitCode::config, o.colour_config,
-                "'" + spec.space + "' is linear but not the config's scene_linear ('" +
-                    config.working_space() + "'): bake for that, or for a log or display encoding");
+  const std::optional<Matrix3<double>> linear = linear_space_matrix(config, spec.space);
+  spec.encoded = !linear;
+  if (linear) {
+    // The operator works in the primaries that the look is given.
+    spec.parameters.xyz_from_rgb = *linear;
+    if (spec.gamut == "working") spec.parameters.xyz_from_gamut = *linear;
+  }
   return spec;
 }
 

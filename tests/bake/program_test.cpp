@@ -74,6 +74,15 @@ TEST_F(Bake, every_format_comes_out_the_same_twice_and_is_sound) {
   }
 }
 
+TEST_F(Bake, linear_light_of_other_primaries_is_taken_as_such) {
+  const std::string file = folder_.path("cg.clf");
+  ASSERT_EQ(run_program({"bake", "--adaptation", "0.1", "--colorspace", "ACEScg", "-o", file}).exit_code, 0);
+  EXPECT_NE(test::read_text(file).find("space=ACEScg; gamut=working; xyz_from_rgb=0.65223"),
+            std::string::npos)
+      << test::read_text(file).substr(0, 1200);
+  EXPECT_EQ(run_program({"check", file, "--max-error", "2.5"}).exit_code, 0);
+}
+
 TEST_F(Bake, several_luminances_get_a_file_each) {
   ASSERT_EQ(run_program({"bake", "--adaptation", "0.1", "--adaptation", "0.02", "--size", "17", "-o",
                          folder_.path("n.clf")})
