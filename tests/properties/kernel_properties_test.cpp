@@ -276,6 +276,32 @@ TEST_F(ProjectionProperties, no_colour_of_the_gamut_is_nearer) {
       {{"outside", 0.5}});
 }
 
+TEST_F(ProjectionProperties, finds_the_colour_that_a_point_was_made_from_even_where_sets_meet) {
+  // z = x - G^-1 l with x, l >= 0 and x_i l_i = 0 has x for its nearest colour (Karush, Kuhn, Tucker). Where both x_i and
+  // l_i are 0, two active sets tie to the last bit, and rounding may put the winner's component below 0.
+  const Matrix3<double> gram_inverse = inverse(transpose(lms) * lms);
+  for_all(
+      seeds(),
+      [&](std::uint64_t seed, Coverage& coverage) {
+        Random random(seed);
+        Vec3<double> x{}, multiplier{};
+        int ties = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+          const int kind = random.below(3);
+          if (kind == 0) x[i] = random.log_uniform(1e-6, 1);
+          if (kind == 1) multiplier[i] = random.log_uniform(1e-6, 1);
+          ties += kind == 2;
+        }
+        const auto z = minus(x, gram_inverse * multiplier);
+        const auto p = projection.nearest(z);
+        coverage("a tie", ties > 0);
+        coverage("a tie elsewhere than at black", ties > 0 && length(x) > 0 && length(multiplier) > 0);
+        RC_ASSERT(p[0] >= 0 && p[1] >= 0 && p[2] >= 0);
+        RC_ASSERT(length(minus(p, x)) <= 1e-10 * std::max(length(x), length(z)));
+      },
+      {{"a tie", 0.5}, {"a tie elsewhere than at black", 0.2}});
+}
+
 TEST_F(ProjectionProperties, never_expands_a_distance) {
   for_all(
       seeds(),
