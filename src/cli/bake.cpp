@@ -283,7 +283,14 @@ int run_bake(const BakeOptions& o) {
   if ((o.output.empty() ? 0 : 1) + (o.new_config.empty() ? 0 : 1) + (o.into.empty() ? 0 : 1) != 1)
     throw Error(ExitCode::usage, "",
                 "give one of -o FILE (a LUT), --config DIR (a whole config), --into CONFIG");
-  if (o.dry_run && o.into.empty()) throw Error(ExitCode::usage, "", "--dry-run goes with --into");
+  const auto goes_with = [](bool given, bool allowed, const char* what) {
+    if (given && !allowed) throw Error(ExitCode::usage, "", what);
+  };
+  goes_with(o.dry_run, !o.into.empty(), "--dry-run goes with --into");
+  goes_with(!o.luts.empty(), !o.new_config.empty(), "--luts goes with --config");
+  goes_with(!o.beside.empty(), o.output.empty(), "--beside goes with --config or --into");
+  goes_with(!o.colour_config.empty(), !o.output.empty(), "--iconfig goes with -o");
+  goes_with(!o.format.empty(), !o.output.empty(), "--format goes with -o");
   (void)edge_of(o);
   (void)adaptations_of(o);
   (void)operator_choice(o.appearance);

@@ -1,6 +1,7 @@
 // scotopic check: bakes held to the operator again, on test colours or on an image.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "bake/inspect.h"
@@ -24,9 +25,14 @@ struct CheckOptions {
   CommonOptions common;
 };
 
+struct OnImage {
+  BakeError error;
+  std::string where;  ///< the worst pixel
+};
+
 /// The look on every pixel of an image with light against the operator on it.
-BakeError compare_on_image(const CheckOptions& o, const ColourConfig& config, const LookSpec& spec,
-                           const OCIO_NAMESPACE::ConstCPUProcessorRcPtr& processor) {
+OnImage compare_on_image(const CheckOptions& o, const ColourConfig& config, const LookSpec& spec,
+                         const OCIO_NAMESPACE::ConstCPUProcessorRcPtr& processor) {
   const std::unique_ptr<PixelSource> source = open_source(o.picture, o.image.limits);
   const ImageLayout layout = plan_layout(*source, "check.exr", config, understand(o.image));
   Comparison comparison(spec.parameters.xyz_from_rgb);
@@ -47,13 +53,9 @@ BakeError compare_on_image(const CheckOptions& o, const ColourConfig& config, co
       comparison.add(in, exact(spec.parameters, in), got);
     }
   }
-  return comparison.result();
-}
-
-std::string place(const CheckOptions& o, const BakeError& e, int width) {
-  if (o.picture.empty()) return "";
-  return fmt::format(", pixel {} {}", e.worst_index % static_cast<std::size_t>(width),
-                     e.worst_index / static_cast<std::size_t>(width));
+  const BakeError error = comparison.result();
+  const auto width = static_cast<std::size_t>(picture.data.width());
+  return {error, fmt::format(", pixel {} {}", error.worst_index % width, error.worst_index / width)};
 }
 
 nlohmann::ordered_json json_of(const Inspected& it) {
@@ -85,8 +87,9 @@ void say(const Inspected& it, const std::string& where) {
         it.error->got[1], it.error->got[2], it.error->expected[0], it.error->expected[1],
         it.error->expected[2], where);
   if (it.error && it.error->outside > 0)
-    line += fmt::format("; besides, {} pixels outside AP1, clamped to its border, max {:.3g}", it.error->outside,
-                        it.error->outside_max);
+    line += fmt::format("; besides, {} pixels outside AP1, clamped to its border, max {:.3g}",
+                        it.error->outside, it.error->outside_max);
+  if (it.spec) line += it.spec->encoded ? "; domain 0 to 1, encoded" : "; domain -65504 to 65504, linear";
   if (it.odd.tested > 0)
     line += fmt::format("; {} odd pixels, {} not finite", it.odd.tested, it.odd.not_finite);
   for (const std::string& problem : it.problems) line += "\n  FAILED: " + problem;
@@ -117,36 +120,46 @@ void inspect_manifests(std::vector<Inspected>& all) {
   }
 }
 
-int run_check(const CheckOptions& o) {
-  const Console console(o.common);
-  const bool is_config = fs::path(o.bake).extension() == ".ocio";
-  const double limit =
-      o.max_error.empty() ? 0 : number_in("--max-error", o.max_error, 0, 1000, "a CIEDE2000 from 0 to 1000");
+void check_usage(const CheckOptions& o, bool is_config) {
   if (!is_config && !o.look.empty())
     throw Error(ExitCode::usage, o.bake, "is a LUT: it has no looks to choose from");
   if (is_config && !o.picture.empty() && o.look.empty())
     throw Error(ExitCode::usage, "", "--image needs the name of one look");
+}
+
+/// Puts the error on an image in place of that on test colours; says which pixel is worst.
+std::string inspect_on_image(const CheckOptions& o, const ColourConfig& config, bool is_config,
+                             Inspected& it) {
+  if (!it.spec || it.spec->encoded)
+    throw Error(ExitCode::config, o.bake,
+                "'" + it.name + "' is no look on linear light that says its operator");
+  const auto processor = is_config ? look_processor(config, o.look) : lut_processor(o.bake);
+  const OnImage on_image = compare_on_image(o, config, *it.spec, processor);
+  it.error = on_image.error;
+  it.name += " on " + o.picture;
+  return on_image.where;
+}
+
+int run_check(const CheckOptions& o) {
+  const Console console(o.common);
+  const bool is_config = fs::path(o.bake).extension() == ".ocio";
+  std::optional<double> limit;
+  if (!o.max_error.empty())
+    limit = number_in("--max-error", o.max_error, 0, 1000, "a CIEDE2000 from 0 to 1000");
+  check_usage(o, is_config);
   const ColourConfig config =
       is_config ? ColourConfig::from_file(o.bake) : ColourConfig::in_force(o.image.config);
   std::vector<Inspected> all = inspect(o, config, is_config);
   std::string where;
-  if (!o.picture.empty()) {
-    Inspected& it = all.front();
-    if (!it.spec || it.spec->encoded)
-      throw Error(ExitCode::config, o.bake,
-                  "'" + it.name + "' is no look on linear light that says its operator");
-    const auto processor = is_config ? look_processor(config, o.look) : lut_processor(o.bake);
-    it.error = compare_on_image(o, config, *it.spec, processor);
-    it.name += " on " + o.picture;
-    where = place(o, *it.error, open_source(o.picture, o.image.limits)->pictures().front().data.width());
-  } else if (o.look.empty() && is_config) {
+  if (!o.picture.empty())
+    where = inspect_on_image(o, config, is_config, all.front());
+  else if (is_config && o.look.empty())
     inspect_manifests(all);
-  }
   bool sound = true;
   nlohmann::ordered_json results = nlohmann::ordered_json::array();
   for (Inspected& it : all) {
-    if (!o.max_error.empty() && it.error && it.error->max > limit)
-      it.problems.push_back(fmt::format("largest error {:.3g} exceeds {:.3g}", it.error->max, limit));
+    if (limit && it.error && it.error->max > *limit)
+      it.problems.push_back(fmt::format("largest error {:.3g} exceeds {:.3g}", it.error->max, *limit));
     sound &= it.problems.empty();
     results.push_back(json_of(it));
     if (!console.json() && !o.common.quiet) say(it, where);

@@ -41,6 +41,8 @@ TEST_F(Bake, what_makes_no_sense_is_refused_with_its_reason) {
   refuses(2, {"--adaptation", "0.1", "--model", "kirk"}, "--model");
   refuses(2, {"--adaptation", "0.1", "--effects", "acuity"}, "no LUT sees");
   refuses(2, {"--adaptation", "0.1", "--dry-run"}, "--into");
+  refuses(2, {"--adaptation", "0.1", "--beside", "kirk2011"}, "--beside");
+  refuses(2, {"--adaptation", "0.1", "--luts", "x"}, "--luts");
   refuses(2, {"--adaptation", "0.1", "--max-error", "x"}, "--max-error");
   refuses(2, {"--adaptation", "0.1", "--config", folder_.path("new")}, "one of");
   refuses(2, {"--adaptation", "0.1"}, "no LUT format", "x.lut");
