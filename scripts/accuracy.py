@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """Measures what accuracy costs and writes it into docs/accuracy.md, README.md and docs/images/accuracy.svg.
 
-accuracy.py BUILD [ROUNDS]: BUILD is a Release build with -DSCOTOPIC_BUILD_BENCH=ON. Let the machine be idle: the
-load is written beside the figures.
+accuracy.py measure BUILD FOLDER [ROUNDS]
+    BUILD is a Release build with -DSCOTOPIC_BUILD_BENCH=ON. Let the machine be idle: the load is kept with the figures.
+accuracy.py write FOLDER [OTHER...]
+    The tables of one run; of the others, made on other machines, only the one by vector instructions.
 """
 import json
 import os
@@ -10,6 +12,7 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import textwrap
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TARGETS = {"AVX3": "AVX-512", "AVX3_DL": "AVX-512"}
@@ -74,16 +77,20 @@ def at(rgb):
     return ", ".join(f"{x:.5g}" for x in rgb)
 
 
-def instruction_table(build):
+def count_instructions(build):
     if not shutil.which("valgrind"):
-        return None
-    workload = build / "tests/instructions/instructions_workload"
-    rows = []
+        return {}
+    counts = {}
     for way, what in INSTRUCTIONS.items():
-        out = subprocess.run(["sh", ROOT / "tests/instructions/count.sh", "valgrind", workload, way, "999"],
+        out = subprocess.run(["sh", ROOT / "tests/instructions/count.sh", "valgrind",
+                              build / "tests/instructions/instructions_workload", way, "999"],
                              capture_output=True, text=True).stdout
-        rows.append([what, out.split(": ")[1].split(" ")[0]])
-    return table(["", "instructions per pixel"], rows)
+        counts[what] = out.split(": ")[1].split(" ")[0]
+    return counts
+
+
+def wrapped(part):
+    return part if part[0] in "|#!" or "\n" in part else textwrap.fill(part, 110, break_on_hyphens=False)
 
 
 def ratios(times, bench):
@@ -109,24 +116,31 @@ def ratios(times, bench):
     return table(["", ""], rows)
 
 
-def median_of(rounds):
-    return "one round" if rounds == "1" else f"medians of {rounds} rounds in which every way had its turn"
+def processor(times):
+    name, instructions = times["machine"].rsplit(", ", 1)
+    return f"{name}, {TARGETS.get(instructions, instructions)}, {times['processors']} processors"
 
 
-def section(times, bench, instructions, rounds):
-    name = times["machine"].rsplit(", ", 1)[0]
+def machine(times):
+    return (f"{processor(times)}, system load "
+            f"{times['load']:.1f}, medians of {times['rounds']} rounds in which every way had its turn")
+
+
+def target_section(times, bench):
+    return f"On {machine(times)}:\n\n" + target_table(bench["times"]) + "\n\n" + ratios(times, bench["times"])
+
+
+def section(times, bench, instructions, others):
     parts = [
         "## What accuracy costs",
-        f"One run on {name} ({os.cpu_count()} processors), OpenColorIO {times['openColorIO']}, system load "
-        f"{times['load']:.1f}; "
-        f"{median_of(rounds)}. "
-        f"Made by `scripts/accuracy.py BUILD {rounds}`. Times are of one thread where nothing else is said.",
+        f"One run on {machine(times)}; OpenColorIO {times['openColorIO']}. Written by `scripts/accuracy.py`. "
+        "Times are of one thread where nothing else is said.",
         "![Error against time](images/accuracy.svg)",
         "Every way is held to the same operator in double, over " + times["errorsOver"] + ". ΔE00 is CIEDE2000 after "
         "scaling both colours by what brings the right one to Y = .184, so that a dark pixel's error counts like a "
         "bright one's; *of the pixel* is the greatest error of a component over the pixel's largest component, in or "
         "out. *Dominated*: another way of the group is no slower and no less accurate. memcpy moves the same frame as "
-        f"RGBA float; the frame is {times['picture']}, {times['pixels']} pixels (`scotopic time --rounds {rounds}`).",
+        f"RGBA float; the frame is {times['picture']}, {times['pixels']} pixels (`scotopic time --rounds {times['rounds']}`).",
         "### The operator",
         group_table(times, lambda g: g.startswith("operator")),
         "LUTs are for programs that cannot run the operator. On a CPU, OpenColorIO 2.1 without its vector code takes longer "
@@ -142,8 +156,8 @@ def section(times, bench, instructions, rounds):
         "### By vector instructions",
         "The same bits on every target: no operation is fused. `bench_appearance`, 3840 × 2160, planes unless RGBA is said; "
         "the kernel is RGB→LMSR→kernel→RGB in one pass.",
-        target_table(bench["times"]),
-        ratios(times, bench["times"]),
+        "A ratio to memcpy says as much of the memory as of the code: where memory is twice as fast, it doubles.",
+        *[target_section(t, b) for t, b, _ in [(times, bench, instructions)] + others],
         "### Against exact arithmetic",
         "20000 colours of Rec.709 over 28 stops against 256-bit arithmetic (GNU MPFR), the worst of each. Components "
         "that all but cancel have many ulps in float, and few of the pixel; in double inside they are the nearest float. "
@@ -152,8 +166,9 @@ def section(times, bench, instructions, rounds):
     ]
     if instructions:
         parts += ["### Without clocks", "Instructions per pixel on the AVX2 target, counted by callgrind, the same from run to "
-                  "run; `tests/instructions` holds them to ceilings.", instructions]
-    return "\n\n".join(parts)
+                  "run; `tests/instructions` holds them to ceilings.",
+                  table(["", "instructions per pixel"], [[what, count] for what, count in instructions.items()])]
+    return "\n\n".join(wrapped(p) for p in parts)
 
 
 def summary(times):
@@ -163,7 +178,7 @@ def summary(times):
         w = ways[name]
         rows.append([f"`{name}`", digits(w["nanosecondsPerPixel"], 3), digits(w["error"]["deltaE00"]["mean"]),
                      digits(w["error"]["deltaE00"]["max"])])
-    return table(["`--precision`", "ns per pixel", "ΔE00 mean", "ΔE00 max"], rows)
+    return f"On one thread ({processor(times)}):\n\n" + table(["`--precision`", "ns per pixel", "ΔE00 mean", "ΔE00 max"], rows)
 
 
 def replace(path, mark, text):
@@ -177,15 +192,45 @@ def replace(path, mark, text):
     path.write_text(new)
 
 
-def main():
-    build = pathlib.Path(sys.argv[1])
-    rounds = sys.argv[2] if len(sys.argv) > 2 else "11"
+def measure(build, folder, rounds):
+    folder.mkdir(parents=True, exist_ok=True)
+    times = json.loads(run(build / "src/cli/scotopic", "time", "--json", "-q", "--rounds", rounds, "--plot",
+                           folder / "accuracy.svg"))
+    times["processors"] = os.cpu_count()
+    (folder / "time.json").write_text(json.dumps(times))
+    (folder / "bench.json").write_text(run(build / "tests/bench/bench_appearance", rounds, "--json"))
+    (folder / "instructions.json").write_text(json.dumps(count_instructions(build)))
+
+
+def read(folder):
+    def part(name):
+        path = folder / f"{name}.json"
+        return json.loads(path.read_text()) if path.exists() else {}
+
+    return part("time"), part("bench"), part("instructions")
+
+
+def write(folder, others):
+    runs = [read(f) for f in [folder] + others]
+    times, bench, _ = runs[0]
+    instructions = next((r[2] for r in runs if r[2]), {})
     plot = ROOT / "docs/images/accuracy.svg"
     plot.parent.mkdir(exist_ok=True)
-    times = json.loads(run(build / "src/cli/scotopic", "time", "--json", "-q", "--rounds", rounds, "--plot", plot))
-    bench = json.loads(run(build / "tests/bench/bench_appearance", rounds, "--json"))
-    replace(ROOT / "docs/accuracy.md", "cost", section(times, bench, instruction_table(build), rounds))
+    shutil.copyfile(folder / "accuracy.svg", plot)
+    replace(ROOT / "docs/accuracy.md", "cost", section(times, bench, instructions, runs[1:]))
     replace(ROOT / "README.md", "cost", "![Error against time](docs/images/accuracy.svg)\n\n" + summary(times))
+
+
+def main():
+    match sys.argv[1:]:
+        case ["measure", build, folder]:
+            measure(pathlib.Path(build), pathlib.Path(folder), "11")
+        case ["measure", build, folder, rounds]:
+            measure(pathlib.Path(build), pathlib.Path(folder), rounds)
+        case ["write", folder, *others]:
+            write(pathlib.Path(folder), [pathlib.Path(f) for f in others])
+        case _:
+            sys.exit(__doc__)
 
 
 if __name__ == "__main__":
