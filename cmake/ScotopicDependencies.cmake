@@ -5,6 +5,12 @@ find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(OpenEXR 3.1 REQUIRED)
 find_package(OpenImageIO 2.4 REQUIRED)
+# Debian's package of it names OpenCV's headers, which it neither needs nor brings along.
+foreach(target OpenImageIO::OpenImageIO OpenImageIO::OpenImageIO_Util)
+  get_target_property(directories ${target} INTERFACE_INCLUDE_DIRECTORIES)
+  list(FILTER directories EXCLUDE REGEX "opencv")
+  set_target_properties(${target} PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${directories}")
+endforeach()
 # By pkg-config: Debian 12's CMake package of OpenColorIO names an include folder that does not exist.
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OpenColorIO REQUIRED IMPORTED_TARGET GLOBAL OpenColorIO>=2.1)
