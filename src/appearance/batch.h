@@ -32,7 +32,8 @@ struct HalfRows {
 };
 
 /// Number type inside; planes are float either way. single: error <= 2e-6 of the pixel's largest component,
-/// in or out, over 1e-6 to 1e6 cd/m2 (tests/appearance, tests/properties); colours whose luminance is the rest of a
+/// in or out, over 1e-6 to 1e6 cd/m2; 4e-6 with quadratic rods; 8e-6 for colours of no light, left over from a
+/// cancellation (tests/appearance, tests/properties); colours whose luminance is the rest of a
 /// cancellation, or with a negative cone signal, are computed in double. dual: double inside, rounded once.
 enum class Precision { single, dual };
 
