@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "adaptation/mesopic.h"
+#include "cli/explain_config.h"
 #include "cli/explain_report.h"
 #include "cli/image_options.h"
 #include "cli/operator_options.h"
@@ -91,8 +92,22 @@ nlohmann::ordered_json result_of(const ExplainOptions& options, const LightNumbe
   return out;
 }
 
+bool is_config(const std::string& file) { return file.size() > 5 && file.rfind(".ocio") == file.size() - 5; }
+
+int run_explain_config(const ExplainOptions& options, const Console& console) {
+  nlohmann::ordered_json looks = nlohmann::ordered_json::array();
+  for (const ExplainedLook& look : explain_looks(ColourConfig::from_file(options.input))) {
+    if (!console.json()) fmt::print("{}\n  does {}\n", look.name, look.does);
+    if (!console.json() && !look.description.empty()) fmt::print("  {}\n", look.description);
+    looks.push_back({{"name", look.name}, {"does", look.does}, {"description", look.description}});
+  }
+  console.result({{"input", options.input}, {"looks", looks}});
+  return static_cast<int>(ExitCode::done);
+}
+
 int run_explain(const ExplainOptions& options) {
   const Console console(options.common);
+  if (is_config(options.input)) return run_explain_config(options, console);
   OperatorChoice choice = understand(options.appearance);
   const AcuityChoice acuity = understand(options.acuity);
   const ImageRequest request = understand(options.image);
@@ -138,8 +153,12 @@ int run_explain(const ExplainOptions& options) {
 void add_explain(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<ExplainOptions>();
   CLI::App& verb = *program.add_subcommand("explain", "What light a scene holds, and what it calls for");
-  verb.footer("Example: scotopic explain night.exr --white-luminance 10");
-  verb.add_option("input", options->input, "As for apply")->required()->type_name("IN");
+  verb.footer("Examples:\n"
+      "  scotopic explain night.exr --white-luminance 10\n"
+      "  scotopic explain ocio_config/config.ocio");
+  verb.add_option("input", options->input, "As for apply; or an OCIO config (.ocio): what its looks do")
+      ->required()
+      ->type_name("IN|CONFIG");
   add_operator_options(verb, options->appearance);
   add_band_options(verb, options->bands);
   add_acuity_options(verb, options->acuity);

@@ -7,6 +7,7 @@
 
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
@@ -116,6 +117,18 @@ TEST_F(Plan, explain_tells_every_effect_with_number_threshold_and_reason) {
   for (const nlohmann::json& bar : report["histogram"]) share += bar["share"].get<double>();
   EXPECT_NEAR(share, 1, 1e-9);
   EXPECT_GT(std::filesystem::file_size(path("light.svg")), 500u);
+}
+
+TEST(ExplainConfig, tells_which_looks_do_what) {
+  const test::Outcome outcome = test::run_program({"explain", SCOTOPIC_SOURCE_DIR "/ocio_config/config.ocio", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::map<std::string, std::string> does;
+  const nlohmann::json report = nlohmann::json::parse(outcome.out);
+  for (const nlohmann::json& look : report["looks"]) does[look["name"]] = look["does"];
+  EXPECT_EQ(does["Photopic"], "nothing");
+  EXPECT_EQ(does["Chroma 0.01 nit (global weight matrix)"], "a matrix");
+  EXPECT_NE(does["Mesopic 0.01 nit (full moon)"].find("a 3D LUT of 33 nodes a side"), std::string::npos);
+  EXPECT_EQ(does["Photopic 10 nit (lamplit room)"].rfind("nothing", 0), 0u) << does["Photopic 10 nit (lamplit room)"];
 }
 
 }  // namespace
