@@ -1,10 +1,12 @@
 // Every luminance of a picture, in one pass, in any order: exact counts and sums that threads can add up.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace scotopic {
@@ -19,13 +21,13 @@ class LuminanceHistogram {
 
   LuminanceHistogram() : bins_(bins) {}
 
-  /// Any finite value; 0 and below count as dark.
+  /// 0 and below count as dark, and so does NaN; what is beyond a float counts as the greatest one.
   void add(float luminance) noexcept {
     if (!(luminance > 0)) {
       ++dark_;
       return;
     }
-    const std::uint32_t bits = std::bit_cast<std::uint32_t>(luminance);
+    const std::uint32_t bits = std::bit_cast<std::uint32_t>(std::min(luminance, std::numeric_limits<float>::max()));
     Bin& bin = bins_[bits >> bin_shift];
     ++bin.count;
     bin.above_first += bits & ((1u << bin_shift) - 1);

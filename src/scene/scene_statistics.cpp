@@ -7,6 +7,15 @@
 #include "receptors/receptor_space.h"
 
 namespace scotopic {
+namespace {
+
+// What is beyond a float becomes the greatest one: converting it would be undefined.
+float to_float(double x) {
+  constexpr double greatest = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(x, -greatest, greatest));
+}
+
+}  // namespace
 
 double SceneStatistics::mean_photopic() const noexcept {
   return finite() ? photopic.sum() / static_cast<double>(finite()) : 0;
@@ -66,8 +75,8 @@ void SceneMeter::measure(const PixelRows& rows, std::uint64_t first_pixel, Scene
     s.least = std::min(s.least, y);
     s.greatest = std::max(s.greatest, y);
     s.photopic.add(y);
-    s.scotopic.add(static_cast<float>(scotopic));
-    if (y > 0) s.sp_deviation = std::max(s.sp_deviation, static_cast<float>(std::abs(scotopic / (white_scotopic_ * y) - 1)));
+    s.scotopic.add(to_float(scotopic));
+    if (y > 0) s.sp_deviation = std::max(s.sp_deviation, to_float(std::abs(scotopic / (white_scotopic_ * y) - 1)));
     else if (scotopic > 0) s.sp_deviation = std::numeric_limits<float>::infinity();
   }
 }

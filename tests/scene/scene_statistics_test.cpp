@@ -71,6 +71,20 @@ TEST(SceneStatistics, pixels_that_are_not_finite_enter_no_number_and_are_counted
   EXPECT_LE(s.greatest, 0.11f);
 }
 
+TEST(SceneStatistics, signals_beyond_a_float_count_as_the_greatest) {
+  // Luminance is finite, the rods' estimate is not a float any more.
+  Picture picture{{-3e38f, 0}, {3e38f, 0}, {3.3e38f, 0}};
+  SceneStatistics s;
+  SceneMeter(rec709(), 2).measure(picture.rows(0, 2), 0, s);
+  EXPECT_EQ(s.finite(), 2u);
+  EXPECT_TRUE(std::isfinite(s.scotopic.sum()));
+  LuminanceHistogram h;
+  h.add(std::numeric_limits<float>::infinity());
+  h.add(std::numeric_limits<float>::quiet_NaN());
+  EXPECT_EQ(h.count(), 2u);
+  EXPECT_EQ(h.dark(), 1u);
+}
+
 TEST(SceneStatistics, rod_planes_are_believed_before_colour) {
   Picture grey{{0.2f}, {0.2f}, {0.2f}};
   PixelRows rows = grey.rows(0, 1);
