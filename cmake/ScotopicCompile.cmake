@@ -13,7 +13,8 @@ if(SCOTOPIC_SANITIZE)
     -fsanitize=${SCOTOPIC_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
     # GCC 12 takes what its own instrumentation reads of a std::optional for uninitialised.
     -Wno-maybe-uninitialized)
-  target_link_options(scotopic_compile INTERFACE -fsanitize=${SCOTOPIC_SANITIZE})
+  # RPATH, not RUNPATH: the sanitizer stands between dlopen and the program whose RUNPATH says where to look.
+  target_link_options(scotopic_compile INTERFACE -fsanitize=${SCOTOPIC_SANITIZE} -Wl,--disable-new-dtags)
   # Two SIMD targets (AVX2 and the baseline) instead of five: instrumented vector code takes minutes to compile.
   target_compile_definitions(scotopic_compile INTERFACE
     "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3)")
