@@ -21,24 +21,6 @@
 namespace scotopic {
 namespace {
 
-/// Rows that one chunk of a scanline part holds.
-int lines_per_chunk(Imf::Compression compression) {
-  switch (compression) {
-    case Imf::ZIP_COMPRESSION:
-    case Imf::PXR24_COMPRESSION:
-      return 16;
-    case Imf::PIZ_COMPRESSION:
-    case Imf::B44_COMPRESSION:
-    case Imf::B44A_COMPRESSION:
-    case Imf::DWAA_COMPRESSION:
-      return 32;
-    case Imf::DWAB_COMPRESSION:
-      return 256;
-    default:
-      return 1;
-  }
-}
-
 bool is_deep(const Imf::Header& header) {
   return header.hasType() && (header.type() == Imf::DEEPSCANLINE || header.type() == Imf::DEEPTILE);
 }
@@ -66,6 +48,24 @@ Window window_of(const Imath::Box2i& box) {
 }
 
 }  // namespace
+
+int rows_compressed_together(const Imf::Header& header) {
+  if (header.hasTileDescription()) return static_cast<int>(header.tileDescription().ySize);
+  switch (header.compression()) {
+    case Imf::ZIP_COMPRESSION:
+    case Imf::PXR24_COMPRESSION:
+      return 16;
+    case Imf::PIZ_COMPRESSION:
+    case Imf::B44_COMPRESSION:
+    case Imf::B44A_COMPRESSION:
+    case Imf::DWAA_COMPRESSION:
+      return 32;
+    case Imf::DWAB_COMPRESSION:
+      return 256;
+    default:
+      return 1;
+  }
+}
 
 PixelType pixel_type(Imf::PixelType type) {
   return type == Imf::HALF ? PixelType::half : type == Imf::FLOAT ? PixelType::float32 : PixelType::uint32;
@@ -123,7 +123,7 @@ void ExrSource::add_pictures(int part) {
   picture.primaries = primaries_of(header);
   picture.white_luminance = float_attribute(header, "whiteLuminance");
   picture.lmsr_unit = float_attribute(header, "scotopic:lmsrUnit");
-  picture.chunk_rows = lines_per_chunk(header.compression());
+  picture.chunk_rows = rows_compressed_together(header);
   picture.descending = header.lineOrder() == Imf::DECREASING_Y;
   for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
     picture.channels.push_back({it.name(), pixel_type(it.channel().type)});

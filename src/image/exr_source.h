@@ -34,6 +34,9 @@ class ExrSource : public PixelSource {
   std::map<int, std::unique_ptr<Imf::TiledInputPart>> tiled_;
 };
 
+/// Rows that are decompressed at once: of a chunk of scanlines, or of a tile.
+int rows_compressed_together(const Imf::Header& header);
+
 /// The file's channel type; uint is uint32.
 PixelType pixel_type(Imf::PixelType type);
 Imf::PixelType exr_type(PixelType type);

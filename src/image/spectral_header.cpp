@@ -1,34 +1,14 @@
 #include "image/spectral_header.h"
 
-#include <OpenEXR/ImfCompression.h>
 #include <OpenEXR/ImfDoubleAttribute.h>
 #include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfStringAttribute.h>
-#include <OpenEXR/ImfTileDescription.h>
 #include <fmt/format.h>
 
 #include <charconv>
 #include <set>
 
 namespace scotopic {
-
-int rows_compressed_together(const Imf::Header& header) {
-  if (header.hasTileDescription()) return static_cast<int>(header.tileDescription().ySize);
-  switch (header.compression()) {
-    case Imf::ZIP_COMPRESSION:
-    case Imf::PXR24_COMPRESSION:
-      return 16;
-    case Imf::PIZ_COMPRESSION:
-    case Imf::B44_COMPRESSION:
-    case Imf::B44A_COMPRESSION:
-    case Imf::DWAA_COMPRESSION:
-      return 32;
-    case Imf::DWAB_COMPRESSION:
-      return 256;
-    default:
-      return 1;
-  }
-}
 
 std::optional<double> wavelength_attribute(const Imf::Header& header, const std::string& channel) {
   const std::string name = channel + ".wavelength";

@@ -13,9 +13,6 @@
 
 namespace scotopic {
 
-/// Rows that are decompressed at once: of a chunk of scanlines, or of a tile.
-int rows_compressed_together(const Imf::Header& header);
-
 /// The attribute "<channel>.wavelength" in metres: a number, or text that begins with one.
 std::optional<double> wavelength_attribute(const Imf::Header& header, const std::string& channel);
 
