@@ -1,0 +1,36 @@
+# Debian packages, by `cpack -G DEB` in the build folder: scotopic (program, looks) and libscotopic-dev
+# (headers, static libraries, CMake and pkg-config files). tests/package takes them apart and runs them.
+set(CPACK_PACKAGE_NAME scotopic)
+set(CPACK_PACKAGE_CONTACT "The Scotopic authors <maintainers@scotopic.invalid>")
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_GENERATOR DEB)
+set(CPACK_COMPONENTS_ALL program library)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME scotopic)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
+# What the program and its module link is found by dpkg-shlibdeps.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+# The first line of a package's description is the project's.
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
+"Computes what rods do to colour, luminance and detail in dim light, exactly,
+for images of known adaptation luminance; bakes the same as OpenColorIO looks.
+With an OpenColorIO config of ready-made looks.")
+
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libscotopic-dev)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
+# The program's package holds the module that reads TIFF, PNG, JPEG and HDR.
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "scotopic (= ${PROJECT_VERSION}), libopencolorio-dev (>= 2.1), \
+libopenimageio-dev (>= 2.4), libopenexr-dev (>= 3.1), libhwy-dev, libfmt-dev, nlohmann-json3-dev, pkg-config")
+set(CPACK_COMPONENT_LIBRARY_DESCRIPTION
+"Development files: static libraries, headers, and files for CMake and pkg-config, to use the
+operator and its looks in other programs.")
+include(CPack)
