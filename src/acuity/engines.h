@@ -22,10 +22,13 @@ struct Constants {
   float space_scale = 0;         ///< 1/(2 sigma^2 weight_end)
   float strength = 1;
   float split_variance = 0;  ///< scaled variance above which a cell is divided
+  float per_pitch = 0;       ///< scaled CIELAB to steps of the lattice whose colours a palette merges
+  float rarity = 1;          ///< of colours that a palette drops: palette-inl.h
   int cell = 1;              ///< side of a cell, pixels
-  int block_height = 4;      ///< of the blocks 8 wide that share a list of clusters: 4 or 8
-  int most_clusters = 1;     ///< per cell
-  double radius = 0;         ///< reach, pixels
+  int block_width = 8;       ///< of the blocks that have a palette; a multiple of 8
+  int block_height = 8;
+  int most_clusters = 1;  ///< per cell
+  double radius = 0;      ///< reach, pixels; of cells from a block's middle
   AcuitySpace space = AcuitySpace::light;
 };
 
@@ -37,36 +40,26 @@ inline constexpr float lab_limit = 1e5f;
 /// Scaled lightness that marks a pixel as absent; its weight is 0 for every pixel that is present.
 inline constexpr float absent = 1e12f;
 
-/// What is kept of a cluster, the pixels of a cell that look alike. A gain is that of the range kernel
-/// widened by the cluster's own variance v: sigma_r^2/(sigma_r^2 + v).
-enum ClusterField {
-  cluster_x,  ///< centroid in the image, pixels
-  cluster_y,
-  cluster_weight,                   ///< count * sqrt(gain_l gain_a gain_b)
-  cluster_lab,                      ///< 3: mean scaled CIELAB times sqrt(gain)
-  cluster_light = cluster_lab + 3,  ///< 3: mean RGB
-  flat_cluster_fields = cluster_light + 3,
-  cluster_root = flat_cluster_fields,  ///< 3: sqrt(gain) of L, a, b
-  cluster_slope =
-      cluster_root + 3,  ///< 3x3: change of RGB with L, a, b times -2 weight_end variance sqrt(gain)
-  cluster_fields = cluster_slope + 9,
+/// Means of the pixels of a cell that look alike, of what is averaged.
+enum Mean {
+  mean_x,  ///< place in the image, pixels
+  mean_y,
+  mean_lab,                  ///< 3: scaled CIELAB
+  mean_light = mean_lab + 3  ///< 3: X/Xn, Y/Yn, Z/Zn
+};
+struct alignas(32) Cluster {
+  float means[8];
+  /// Of what means has at the same place; those of L, a, b are used.
+  float variances[8];
 };
 
-/// Clusters that a block may see at most; Constants::most_clusters is chosen so that it suffices.
-inline constexpr int list_capacity = 16384;
-
-/// Clusters of a row of cells, left to right. Field f of cluster i is values[f * stride + i]; 16 floats
-/// beyond a field's end may be read.
-struct Clusters {
-  std::ptrdiff_t stride = 0;
-  std::unique_ptr<float[]> values;
-  std::vector<std::uint32_t> first;  ///< cell i of the row holds clusters first[i] ... first[i+1] - 1
-};
-
-/// The cells of one row of the image-wide grid that a window touches. Most clusters are so alike that their
-/// roots count as 1 and their slopes as 0: apart from the others they cost less.
+/// The clusters of a row of cells of the image-wide grid, left to right. Arrays of floats have room for 16
+/// more than there are clusters.
 struct CellRow {
-  Clusters flat, spread;
+  std::vector<Cluster> clusters;
+  std::vector<float> x, y, count;     ///< the first two as in means; number of pixels
+  std::vector<std::uint64_t> colour;  ///< the place of the mean CIELAB in the lattice
+  std::vector<std::uint32_t> first;   ///< cell i of the row holds clusters first[i] ... first[i+1] - 1
 };
 
 /// Image rows with `margin` absent pixels left and right: for each row six planes of `stride` floats, scaled
@@ -84,10 +77,10 @@ struct LabRows {
 /// Fills `out` with the cells of grid row `row`; the window's columns decide which cells there are.
 void build_cell_row(const Constants& constants, const AcuityWindow& window, int row, CellRow& out);
 
-/// Computes rows of the tile in the block row of constants.block_height at image row `y` (a multiple of it);
-/// `rows[i]` is grid row first_row + i, absent rows (outside the image) are null.
+/// Computes the part of the tile that lies in blocks begin ... end - 1, from the left of the image, of the
+/// row of blocks at image row `y`, a multiple of their height; `rows[i]` is grid row first_row + i.
 void filter_from_cells(const Constants& constants, const AcuityWindow& window, const AcuityTile& tile, int y,
-                       const CellRow* const* rows, int first_row, int row_count);
+                       int begin, int end, const CellRow* const* rows, int first_row, int row_count);
 
 /// Fills row `i` of `out` from image row `y`, which may lie outside the image: then every pixel is absent.
 void build_lab_row(const Constants& constants, const AcuityWindow& window, int y, LabRows& out, int i);

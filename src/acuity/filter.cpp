@@ -15,23 +15,26 @@ using acuity::CellRow;
 using acuity::Constants;
 using acuity::LabRows;
 
-/// Reach in sigmas, side of a cell in sigmas, largest variance in a cell in range sigmas squared.
+/// Reach of either engine in sigmas; side of a cell in sigmas, largest variance in a cell in range sigmas
+/// squared, clusters of a cell at most, step of the lattice of colours in range sigmas, and how rare colours
+/// must be to be dropped.
 struct Tuning {
-  double reach, cell, variance;
+  double window_reach, cells_reach, cell, variance;
   int most_clusters;
+  double pitch, rarity;
 };
 
 /// Measured against double brute force of reach 3.5 on night and daylight HDR images: docs/acuity.md.
 Tuning tuning_of(AcuityQuality quality) {
   switch (quality) {
     case AcuityQuality::draft:
-      return {2.5, 0.6, 0.25, 8};
+      return {2.5, 2.5, 0.6, 0.1, 16, 1.5, 3.0};
     case AcuityQuality::normal:
-      return {2.75, 0.5, 0.15, 16};
+      return {2.75, 3.0, 0.5, 0.03, 64, 1.0, 1.0};
     case AcuityQuality::fine:
       break;
   }
-  return {3.5, 0.34, 0.04, 32};
+  return {3.5, 3.5, 0.34, 0.01, 128, 0.5, 0.1};
 }
 
 /// Variance along one axis of a Gaussian of standard deviation 1 cut off at radius `reach`.
@@ -87,7 +90,18 @@ void check(const AcuityParameters& p) {
   require(std::isfinite(det) && det != 0.0, "xyz_from_rgb has no inverse");
 }
 
-Constants constants_of(const AcuityParameters& p, const Tuning& tuning) {
+int cell_of(double sigma, const Tuning& tuning) {
+  return std::max(1, static_cast<int>(std::lround(tuning.cell * sigma)));
+}
+
+/// Cells are no gain where they hold a pixel or two, nor where a block is large against sigma.
+AcuityEngine engine_of(const AcuityParameters& p, const Tuning& tuning) {
+  if (p.engine != AcuityEngine::automatic) return p.engine;
+  return p.sigma < 3.5 || cell_of(p.sigma, tuning) < 2 ? AcuityEngine::window : AcuityEngine::cells;
+}
+
+Constants constants_of(const AcuityParameters& p, const Tuning& tuning, AcuityEngine engine) {
+  const double reach = engine == AcuityEngine::window ? tuning.window_reach : tuning.cells_reach;
   Constants c;
   const Vec3<double> white = p.white * p.xyz_from_rgb * Vec3<double>{1.0, 1.0, 1.0};
   const Matrix3<double> relative =
@@ -97,15 +111,20 @@ Constants constants_of(const AcuityParameters& p, const Tuning& tuning) {
   c.lab_scale = static_cast<float>(1.0 / (std::sqrt(2.0 * acuity::weight_end) * p.range_sigma));
   c.strength = static_cast<float>(p.strength);
   c.space = p.space;
-  c.radius = tuning.reach * p.sigma;
-  const double sigma = p.sigma * widened_sigma(tuning.reach);
+  c.radius = reach * p.sigma;
+  const double sigma = p.sigma * widened_sigma(reach);
   c.space_scale = static_cast<float>(1.0 / (2.0 * sigma * sigma * acuity::weight_end));
   c.split_variance = static_cast<float>(tuning.variance / (2.0 * acuity::weight_end));
-  c.cell = std::max(1, static_cast<int>(std::lround(tuning.cell * p.sigma)));
-  c.block_height = c.cell >= 4 ? 8 : 4;
-  const double cells = c.radius / c.cell + 1.0;  // along the disc's radius
-  c.most_clusters =
-      std::clamp(static_cast<int>(acuity::list_capacity / (4.0 * cells * cells)), 1, tuning.most_clusters);
+  // Under 0.1 CIELAB units nothing is gained, and the lattice would not reach lab_limit.
+  const double pitch = std::max(tuning.pitch * p.range_sigma, 0.1);
+  c.per_pitch = static_cast<float>(1.0 / (pitch * static_cast<double>(c.lab_scale)));
+  c.cell = cell_of(p.sigma, tuning);
+  c.most_clusters = tuning.most_clusters;
+  c.block_width = 8 * std::max(1, static_cast<int>(std::lround(p.sigma / 8.0)));
+  c.block_height = p.sigma < 4.5 ? 4 : c.block_width;
+  c.rarity = static_cast<float>(tuning.rarity);
+  // Reach is from a block's middle; its corners should still see most of their Gaussian.
+  if (engine == AcuityEngine::cells) c.radius += 0.14 * std::hypot(c.block_width, c.block_height);
   return c;
 }
 
@@ -115,16 +134,14 @@ AcuityFilter::AcuityFilter(const AcuityParameters& p) {
   check(p);
   auto plan = std::make_unique<Plan>();
   const Tuning tuning = tuning_of(p.quality);
-  plan->identity = p.strength == 0.0 || p.sigma * tuning.reach < 1.0;
+  plan->engine = engine_of(p, tuning);
+  plan->identity = p.strength == 0.0 || p.sigma * tuning.window_reach < 1.0;
   if (!plan->identity) {
-    plan->constants = constants_of(p, tuning);
-    const Constants& c = plan->constants;
-    plan->engine = p.engine;
-    if (p.engine == AcuityEngine::automatic)
-      plan->engine = c.cell < 2 ? AcuityEngine::window : AcuityEngine::cells;
+    const Constants& c = plan->constants = constants_of(p, tuning, plan->engine);
     plan->reach = static_cast<int>(std::ceil(c.radius));
-    // A block reaches from its middle; a cell within reach must lie in the window whole.
-    plan->halo = plan->engine == AcuityEngine::window ? plan->reach : plan->reach + c.cell + 8;
+    plan->halo = plan->reach;
+    // A cell within reach must lie in the window whole.
+    if (plan->engine == AcuityEngine::cells) plan->halo += c.cell + std::max(c.block_width, c.block_height);
   }
   plan_ = std::move(plan);
 }
@@ -178,9 +195,10 @@ void AcuityFilter::Plan::copy(const AcuityWindow& window, const AcuityTile& tile
 }
 
 namespace {
-constexpr int strip_height = 256;  // output rows between which scratch rows are given back
-constexpr int task_height = 16;    // output rows of one task of the window engine
-constexpr int lane_margin = 32;    // pixels that one step of the window engine may read beyond a row
+constexpr int strip_height = 256;   // output rows between which scratch rows are given back
+constexpr int task_pixels = 16384;  // of one task of the cells engine, about
+constexpr int task_height = 16;     // output rows of one task of the window engine
+constexpr int lane_margin = 32;     // pixels that one step of the window engine may read beyond a row
 }  // namespace
 
 void AcuityFilter::Plan::filter_window(const AcuityWindow& window, const AcuityTile& tile,
@@ -201,12 +219,16 @@ void AcuityFilter::Plan::filter_window(const AcuityWindow& window, const AcuityT
 
 void AcuityFilter::Plan::filter_cells(const AcuityWindow& window, const AcuityTile& tile,
                                       const ParallelFor& parallel_for) const {
-  const int cell = constants.cell, block = constants.block_height;
+  const int cell = constants.cell, width = constants.block_width, height = constants.block_height;
   const auto row_of = [&](int y) { return std::clamp(y, window.y, window.y + window.height - 1) / cell; };
+  const int first_block = tile.x / width, end_block = (tile.x + tile.width - 1) / width + 1;
+  const int task_blocks = std::max(1, task_pixels / (width * height));
+  const int tasks_across = (end_block - first_block + task_blocks - 1) / task_blocks;
+  const int strip = std::max(1, strip_height / height) * height;
   std::deque<CellRow> rows;  // grid rows first ... first + size - 1
   int first = row_of(tile.y - halo);
-  for (int y = tile.y / block * block; y < tile.y + tile.height; y += strip_height) {
-    const int end = std::min(y + strip_height, tile.y + tile.height);
+  for (int y = tile.y / height * height; y < tile.y + tile.height; y += strip) {
+    const int end = std::min(y + strip, tile.y + tile.height);
     for (; first < row_of(y - halo) && !rows.empty(); ++first) rows.pop_front();
     const int built = static_cast<int>(rows.size());
     rows.resize(static_cast<std::size_t>(row_of(end + halo) - first + 1));
@@ -215,11 +237,13 @@ void AcuityFilter::Plan::filter_cells(const AcuityWindow& window, const AcuityTi
     });
     std::vector<const CellRow*> pointers;
     for (const CellRow& row : rows) pointers.push_back(&row);
-    parallel_for((end - y + block - 1) / block, [&](int i) {
-      const int block_y = y + block * i;
-      const int low = std::max(row_of(block_y - reach), first), high = row_of(block_y + block + reach);
-      acuity::filter_from_cells(constants, window, tile, block_y, pointers.data() + (low - first), low,
-                                high - low + 1);
+    parallel_for((end - y + height - 1) / height * tasks_across, [&](int i) {
+      const int block_y = y + height * (i / tasks_across);
+      const int block = first_block + task_blocks * (i % tasks_across);
+      const int low = std::max(row_of(block_y - reach), first), high = row_of(block_y + height + reach);
+      acuity::filter_from_cells(constants, window, tile, block_y, block,
+                                std::min(block + task_blocks, end_block), pointers.data() + (low - first),
+                                low, high - low + 1);
     });
   }
 }

@@ -15,8 +15,53 @@ HWY_BEFORE_NAMESPACE();
 namespace scotopic::acuity::HWY_NAMESPACE {
 namespace {
 
-using D = Lanes;
-using V = Vector;
+using D = hn::CappedTag<float, 16>;
+using V = hn::Vec<D>;
+
+/// As many vectors as are worked on side by side: one alone waits for its own long chain of results. Two need
+/// the 32 registers of AVX-512.
+#if HWY_TARGET <= HWY_AVX3
+struct Wide {
+  V a, b;
+};
+constexpr int ways = 2;
+/// f of each vector of each argument in turn.
+template <class F, class... W>
+HWY_INLINE Wide each(F f, const W&... w) {
+  return {f(w.a...), f(w.b...)};
+}
+/// f(i) of the place of each vector.
+template <class F>
+HWY_INLINE Wide from_place(F f) {
+  return {f(0), f(1)};
+}
+#else
+struct Wide {
+  V a;
+};
+constexpr int ways = 1;
+template <class F, class... W>
+HWY_INLINE Wide each(F f, const W&... w) {
+  return {f(w.a...)};
+}
+template <class F>
+HWY_INLINE Wide from_place(F f) {
+  return {f(0)};
+}
+#endif
+
+HWY_INLINE Wide sub(Wide a, Wide b) {
+  return each([](V x, V y) HWY_ATTR { return hn::Sub(x, y); }, a, b);
+}
+HWY_INLINE Wide add(Wide a, Wide b) {
+  return each([](V x, V y) HWY_ATTR { return hn::Add(x, y); }, a, b);
+}
+HWY_INLINE Wide mul_add(Wide a, Wide b, Wide c) {
+  return each([](V x, V y, V z) HWY_ATTR { return hn::MulAdd(x, y, z); }, a, b, c);
+}
+HWY_INLINE Wide less_square(Wide a, Wide c) {
+  return each([](V x, V z) HWY_ATTR { return hn::NegMulAdd(x, x, z); }, a, c);
+}
 
 /// A pixel of the disc: where it lies from the middle, in floats, and what is left of u at its distance.
 struct Tap {
@@ -55,7 +100,8 @@ HWY_INLINE void filter_lanes(const Constants& c, const std::vector<Tap>& taps, c
     const Wide dl = sub(load(there), l), da = sub(load(there + stride), a),
                db = sub(load(there + 2 * stride), b);
     const Wide near = each([&](V v) HWY_ATTR { return hn::NegMulAdd(v, v, tap_u); }, dl);
-    const Wide w = weights(less_square(db, less_square(da, near)));
+    const Wide u = less_square(db, less_square(da, near));
+    const Wide w = each([](V v) HWY_ATTR { return weight_of(D(), v); }, u);
     total = add(total, w);
     if constexpr (space == AcuitySpace::lab) {
       x = mul_add(w, dl, x);
@@ -68,7 +114,11 @@ HWY_INLINE void filter_lanes(const Constants& c, const std::vector<Tap>& taps, c
     }
   }
   const auto finish = [&](Three<V> sums, V weight, Three<V> lab, Three<V> own, float* to) HWY_ATTR {
-    const Three<V> change = mean_change<space>(c, sums, weight, lab);
+    const V per_weight = hn::Div(hn::Set(d, 1.0f), weight);
+    const Three<V> mean{hn::Mul(sums.x, per_weight), hn::Mul(sums.y, per_weight),
+                        hn::Mul(sums.z, per_weight)};
+    Three<V> change = mean;
+    if constexpr (space == AcuitySpace::lab) change = rgb_difference(d, c, lab, moved(lab, mean));
     const V strength = hn::Set(d, c.strength);
     hn::StoreU(hn::MulAdd(strength, change.x, own.x), d, to);
     hn::StoreU(hn::MulAdd(strength, change.y, own.y), d, to + out_stride);
@@ -130,9 +180,9 @@ void BuildLabRow(const Constants& c, const AcuityWindow& window, int y, LabRows&
   if (!exists) return;
   const std::ptrdiff_t offset = (y - window.y) * window.stride;
   row += margin;
-  float* lab[3] = {row, row + out.stride, row + 2 * out.stride};
-  const float* planes[3] = {window.r + offset, window.g + offset, window.b + offset};
-  lab_of_row(c, planes[0], planes[1], planes[2], window.width, lab);
+  float* const lab[3] = {row, row + out.stride, row + 2 * out.stride};
+  const float* const planes[3] = {window.r + offset, window.g + offset, window.b + offset};
+  lab_of_row(c, planes, window.width, lab);
   for (int k = 0; k < 3; ++k) {
     float* light = row + (3 + k) * out.stride;
     for (int x = 0; x < window.width; ++x) light[x] = row[x] == absent ? 0.0f : planes[k][x];
