@@ -15,7 +15,8 @@ namespace scotopic {
 enum class AcuitySpace { light, lab };
 
 /// `window` visits every pixel under the Gaussian: exact, and its cost grows with the square of sigma.
-/// `cells` replaces the pixels of small squares by a few Gaussian clusters: flat cost, approximate.
+/// `cells` replaces the pixels of small squares by a few Gaussian clusters, and those around a block of
+/// pixels by the block's palette: flat cost, approximate.
 enum class AcuityEngine { automatic, window, cells };
 
 /// How far the Gaussian reaches and how finely cells are divided. Error bounds: docs/acuity.md.
@@ -101,7 +102,9 @@ class AcuityFilter : public SpatialFilter {
   /// The engine in use: window or cells.
   AcuityEngine engine() const noexcept;
 
-  /// Scratch memory: some (rows of 256 + 2 halo) x window.width x 40 bytes at most.
+  /// Scratch memory: for the window engine (256 rows + 2 halo) x window.width x 24 bytes; for cells, over as
+  /// many rows, 90 bytes for each cluster: one or two a cell of half a sigma, in noise one for each pixel, 64
+  /// at most.
   void filter(const AcuityWindow& window, const AcuityTile& tile,
               const ParallelFor& parallel_for = serial_for) const override;
 

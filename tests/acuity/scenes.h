@@ -1,6 +1,7 @@
 // Images made by formula, and the filter written once more, plainly and in double.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -131,6 +132,35 @@ inline Vec3<double> brute_force(const AcuityParameters& p, const Image& image, i
     }
   }
   return {sum[0] / total, sum[1] / total, sum[2] / total};
+}
+
+/// How far from the filter in double.
+struct Agreement {
+  double psnr = 0.0;  // dB, of CIELAB, 100 units full scale
+  double worst = 0.0;
+  int x = 0, y = 0;
+};
+
+/// The filter against brute force at the pixels of a grid of `step`.
+inline Agreement agreement(const AcuityParameters& p, const Image& in, int step) {
+  const Image out = filtered(p, in);
+  Agreement result;
+  double squares = 0.0;
+  int count = 0;
+  for (int y = 0; y < in.height; y += step) {
+    for (int x = y % step; x < in.width; x += step) {
+      Vec3<double> wanted = brute_force(p, in, x, y);
+      if (p.space == AcuitySpace::light) wanted = cielab(p, wanted);
+      const Vec3<double> found = cielab(p, pixel(out, x, y));
+      double square = 0.0;
+      for (std::size_t k = 0; k < 3; ++k) square += (found[k] - wanted[k]) * (found[k] - wanted[k]);
+      squares += square / 3.0;
+      ++count;
+      if (!(std::sqrt(square) <= result.worst)) result = {0.0, std::sqrt(square), x, y};
+    }
+  }
+  result.psnr = 10.0 * std::log10(1e4 / (squares / count + 1e-12));
+  return result;
 }
 
 }  // namespace scotopic::test

@@ -1,6 +1,6 @@
 // The acuity filter against cv::bilateralFilter (CIELAB in float, d = 0) and against memcpy, on one machine
 // in one run: ratios are printed at the end. Usage: bench_acuity [image file] [--benchmark_...]; with no
-// file, a night by formula.
+// file, a night by formula. bench_acuity --accuracy IMAGE...: how far from brute force in double.
 #include <OpenImageIO/imagebuf.h>
 #include <benchmark/benchmark.h>
 #include <hwy/targets.h>
@@ -226,9 +226,27 @@ void print_ratios() {
     print_ratio((std::string(name) + ", 2 threads / memcpy of the frame by each").c_str(), name, "memcpy 4K");
 }
 
+/// PSNR in dB of CIELAB, and the worst pixel's distance, at every 31st pixel of every 31st row.
+void print_accuracy(const std::string& file) {
+  const OIIO::ImageBuf pixels(file);
+  const Image image = from_file(file, pixels.spec().width, pixels.spec().height);
+  for (const double range : {15.0, 5.0})
+    for (const double sigma : {2.1, 4.0, 8.0, 16.0, 48.0}) {
+      AcuityParameters p = scotopic::test::parameters(sigma, range);
+      p.white = white_of(image);
+      const auto a = scotopic::test::agreement(p, image, 31);
+      std::printf("%s sigma %4.1f range %2.0f: %.1f dB, worst %.2f CIELAB at (%d, %d)\n", file.c_str(), sigma,
+                  range, a.psnr, a.worst, a.x, a.y);
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && std::strcmp(argv[1], "--accuracy") == 0) {
+    for (int i = 2; i < argc; ++i) print_accuracy(argv[i]);
+    return 0;
+  }
   benchmark::Initialize(&argc, argv);
   if (argc > 1) picture_file = argv[1];
   register_all();
