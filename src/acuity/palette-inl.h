@@ -169,7 +169,7 @@ HWY_INLINE void Palette::add(const CellRow& row, std::uint32_t begin, std::uint3
 
 /// Colours are dropped that weigh less than this part of all, or than so many pixels, whichever is less; and
 /// fewer where they would together be more than rarest_together: in noise every colour is rare.
-constexpr float rarest = 3e-4f, rarest_pixels = 2.0f, rarest_together = 1e-2f;
+constexpr float rarest = 3e-4f, rarest_pixels = 4.0f, rarest_together = 1e-2f;
 
 /// A pixel whose colour was dropped is as good as alone in the block: it stays what it is, but for its like.
 HWY_INLINE void Palette::drop_rare() {
