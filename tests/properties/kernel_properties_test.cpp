@@ -125,6 +125,51 @@ TEST(KernelProperties, a_bright_grey_shifts_by_17_748_over_the_root_of_its_trola
       {{"a million trolands", 0.05}});
 }
 
+TEST(KernelProperties, is_continuous_with_a_stated_slope_across_the_clamp_too) {
+  // Each g r moves by at most |dr| + .1925/kappa |dq| for cones that see light: .1925 is the maximum of
+  // x/2 (1 + x)^-3/2. Where rods cancel a negative cone under the root, by 1 + G kappa r/2 and G r/2, G = gain T.
+  double steepest = 0;
+  for_all(
+      seeds(),
+      [&](std::uint64_t seed, Coverage& coverage) {
+        Random random(seed);
+        Signals a = draw_signals(random, 1e-9, 1e9, true);
+        const auto kernel = kernel_of(a);
+        const bool light = random.chance(0.5);
+        if (!light)
+          for (std::size_t i = 0; i < 3; ++i) a.q[i] = -kernel.kappa()[i] * a.r * (1 + random.sign() * random.log_uniform(1e-9, 1));
+        Signals b = a;
+        const double step = random.log_uniform(1e-9, 1);
+        for (auto& x : b.q) x += step * random.uniform(-1, 1) * (light ? x : a.r);
+        b.r *= 1 + step * random.uniform(-1, 1);
+        const double more_rods = std::max(a.r, b.r), rods_moved = std::abs(a.r - b.r);
+        Vec3<double> bound;
+        bool crossed = false;
+        for (std::size_t j = 0; j < 3; ++j) {
+          const double kappa = kernel.kappa()[j], root = 0.5 * kernel.gain()[j] * more_rods, moved = std::abs(a.q[j] - b.q[j]);
+          bound[j] = light ? rods_moved + 0.1925 / kappa * moved : (1 + kappa * root) * rods_moved + root * moved;
+          crossed = crossed || (a.q[j] + kappa * a.r < 0) != (b.q[j] + kappa * b.r < 0);
+        }
+        coverage("light", light);
+        coverage("crossing the clamp", crossed);
+        const auto from = kernel.shift(a.q, a.r), to = kernel.shift(b.q, b.r);
+        for (std::size_t i = 0; i < 3; ++i) {
+          double most = 0, terms = 0;
+          for (std::size_t j = 0; j < 3; ++j) {
+            most += std::abs(kernel.cone_shift()[i][j]) * bound[j];
+            terms += std::abs(kernel.cone_shift()[i][j]) * more_rods;
+          }
+          // Rounding of the sum under the root, which a cancellation makes larger than its result.
+          const double rounding = 1e-15 * terms * (light ? 4 : 1 + kernel.gain()[0] * more_rods + kernel.gain()[2] * more_rods);
+          RC_ASSERT(std::abs(to[i] - from[i]) <= most * (1 + 1e-9) + rounding);
+          if (light) steepest = std::max(steepest, std::abs(to[i] - from[i]) / most);
+        }
+      },
+      {{"light", 0.4}, {"crossing the clamp", 0.1}});
+  std::printf("steepest: %.2f of the bound for light\n", steepest);
+  EXPECT_GT(steepest, 0.5) << "the bound says too little";
+}
+
 TEST(KernelProperties, rods_add_luminance_and_more_rods_add_more) {
   for_all(
       seeds(),

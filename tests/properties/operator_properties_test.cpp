@@ -1,56 +1,15 @@
 // What holds for every pixel through the whole operator, by the reference and by the batch.
-#include <hwy/targets.h>
-
-#include <bit>
 #include <cmath>
 #include <limits>
-#include <thread>
 
-#include "appearance/stages.h"
 #include "properties/judge.h"
+#include "properties/pixels.h"
 #include "properties/property.h"
+#include "receptors/receptor_space.h"
 #include "support/primaries.h"
 
 namespace scotopic::test {
 namespace {
-
-using Rgb = std::array<float, 3>;
-
-std::array<std::uint32_t, 3> bits(const Rgb& v) { return std::bit_cast<std::array<std::uint32_t, 3>>(v); }
-std::array<std::uint64_t, 3> bits(const Vec3<double>& v) { return std::bit_cast<std::array<std::uint64_t, 3>>(v); }
-
-template <typename V>
-double largest(const V& v) {
-  double out = 0;
-  for (const auto x : v) out = std::max(out, std::abs(static_cast<double>(x)));
-  return out;
-}
-
-double distance(const Vec3<double>& a, const Vec3<double>& b) {
-  return largest(Vec3<double>{a[0] - b[0], a[1] - b[1], a[2] - b[2]});
-}
-
-double luminance(const AppearanceReference& op, const Vec3<double>& rgb) {
-  return dot(op.constants().luminance_from_rgb, rgb);
-}
-
-double local_luminance(const AppearanceReference& op, const Vec3<double>& rgb) {
-  const auto& p = op.constants().parameters;
-  return p.adaptation + (p.weight == Weight::local ? std::max(0.0, luminance(op, rgb) * p.white_luminance) : 0.0);
-}
-
-// A light: no component and no cone signal negative, and luminance not under 1/64 of the cone signals, white's being 1.
-bool is_light(const Case& c) {
-  const OperatorConstants constants(c.parameters);
-  const Vec3<double> rgb = {c.sample.rgb[0], c.sample.rgb[1], c.sample.rgb[2]};
-  const auto q = constants.lms_from_rgb * rgb;
-  const double y = dot(constants.luminance_from_rgb, rgb);
-  for (std::size_t i = 0; i < 3; ++i)
-    if (rgb[i] < 0 || q[i] <= 0 || y < luminance_floor * q[i] / constants.cone_white[i]) return false;
-  return largest(rgb) <= operable_limit && largest(rgb) > 1e-30;
-}
-
-const std::vector<Regime> no_light = {Regime::subnormal, Regime::tiny, Regime::huge};
 
 TEST(OperatorProperties, black_stays_black) {
   for_all(
@@ -141,29 +100,6 @@ TEST(OperatorProperties, strength_0_keeps_every_bit) {
       all_regimes({Regime::huge}));
 }
 
-TEST(OperatorProperties, strength_is_continuous) {
-  // A step of the strengths moves a pixel by at most 300 times the step of its size: a shift is up to 30 times a dark
-  // pixel's light, and its luminance follows.
-  for_all(
-      cases({Regime::huge, Regime::subnormal}),
-      [](Case c, Coverage& coverage) {
-        if (c.parameters.model == Model::safko2019) return;
-        if (!is_light(c)) return;
-        c.planes = Planes::rgb;
-        Case other = c;
-        Random random(bits(c.sample.rgb)[1]);
-        const double step = random.log_uniform(1e-9, 0.1);
-        for (double* s : {&other.parameters.strength.all, &other.parameters.strength.shift,
-                          &other.parameters.strength.luminance, &other.parameters.strength.chroma})
-          *s = std::min(1.0, *s + step);
-        const auto a = AppearanceReference(c.parameters)(c.sample.widened(c.planes));
-        const auto b = AppearanceReference(other.parameters)(other.sample.widened(other.planes));
-        coverage("light");
-        RC_ASSERT(distance(a, b) <= 300 * step * std::max({largest(c.sample.rgb), largest(a), largest(b)}));
-      },
-      {{"light", 0.3}});
-}
-
 TEST(OperatorProperties, from_5_candelas_up_every_bit_is_kept) {
   for_all(
       cases({Regime::huge}),
@@ -214,6 +150,102 @@ TEST(OperatorProperties, a_lamp_of_100_in_a_dark_scene_keeps_its_chroma) {
         RC_ASSERT(chroma(out) >= 0.9 * chroma(rgb));
       },
       {{"below 5", 0.002}});
+}
+
+TEST(OperatorProperties, at_a_millionth_of_a_candela_the_shift_is_a_3x3_matrix) {
+  // All gains are 1 there: XYZ' = (1 + XYZ_from_LMS A^-1 N (1 1 1)' r) XYZ, r linear in XYZ. filament2021 has some 400
+  // times as many kernel units in a cd/m2 and comes there at a billionth.
+  double worst = 0;
+  for_all(
+      seeds(),
+      [&](std::uint64_t seed, Coverage& coverage) {
+        Random random(seed);
+        const bool kirk = random.chance(0.5);
+        AppearanceParameters p;
+        p.model = kirk ? Model::kirk2011 : Model::filament2021;
+        p.adaptation = 1e-6;
+        p.white_luminance = random.log_uniform(1e-8, 1e-4);
+        p.luminance = LuminancePolicy::none;
+        p.strength.chroma = 0;
+        p.xyz_from_rgb = random.chance(0.5) ? rec709 : rec2020;
+        const AppearanceReference op(p);
+        const OperatorConstants& c = op.constants();
+        Vec3<double> rgb;
+        for (auto& x : rgb) x = random.uniform(0, 1);
+        const double brightest = largest(c.lms_from_rgb * rgb) * p.white_luminance;
+        const double scale = (kirk ? 1e-6 : 1e-9) * random.log_uniform(1e-3, 1) / brightest;
+        for (auto& x : rgb) x *= scale;
+        // The rods' row, from the published fit; the floor at .016 Y is another row.
+        const double d65 = dot(scotopic_linear_from_xyz, p.xyz_from_rgb * rgb) * p.sp_ratio / sp_ratio_d65;
+        if (d65 < 0.02 * luminance(op, rgb)) return;
+        const double r = d65 * rod_signal_per_scotopic_luminance();
+        const auto added = c.rgb_from_lms * (c.kernel.cone_shift() * Vec3<double>{r, r, r});
+        const Vec3<double> expected = {rgb[0] + added[0], rgb[1] + added[1], rgb[2] + added[2]};
+        const double error = distance(op({rgb}), expected) / largest(expected);
+        coverage("kirk2011", kirk);
+        coverage("filament2021", !kirk);
+        worst = std::max(worst, error);
+        RC_ASSERT(error <= 1e-5);
+      },
+      {{"kirk2011", 0.3}, {"filament2021", 0.3}});
+  std::printf("scotopic limit: worst difference from its matrix %.2g\n", worst);
+}
+
+TEST(OperatorProperties, below_the_mesopic_range_what_the_rods_do_not_see_is_black) {
+  // m = 0 there, to the last bit: the luminance is the rods', and that of no rods is 0.
+  for_all(
+      cases(no_light),
+      [](Case c, Coverage& coverage) {
+        if (c.parameters.model == Model::safko2019) c.parameters.model = Model::filament2021;
+        Random random(bits(c.sample.rgb)[0] + 11);
+        c.planes = Planes::rgb_rod;
+        c.sample.rod = random.chance(0.5) ? 0.0f : -0.0f;
+        c.parameters.luminance = LuminancePolicy::mesopic;
+        c.parameters.strength.all = c.parameters.strength.luminance = 1;
+        c.parameters.adaptation = random.log_uniform(1e-6, 0.002);
+        if (!is_light(c)) return;
+        const AppearanceReference op(c.parameters);
+        const auto pixel = c.sample.widened(c.planes);
+        if (local_luminance(op, pixel.rgb) > 0.00202) return;
+        coverage("light");
+        RC_ASSERT(largest(op(pixel)) == 0);
+        RC_ASSERT(largest(applied(AppearanceBatch(c.parameters), c)) == 0);
+        RC_ASSERT(largest(applied(AppearanceBatch(c.parameters, Precision::dual), c)) == 0);
+      },
+      {{"light", 0.1}});
+}
+
+TEST(OperatorProperties, a_grey_stays_on_the_line_of_hue_that_its_shift_puts_it_on) {
+  // Luminance scales and chroma moves towards white: neither turns the colour that rods give a grey.
+  for_all(
+      cases({Regime::huge, Regime::subnormal}),
+      [](Case c, Coverage& coverage) {
+        if (c.parameters.model == Model::safko2019) c.parameters.model = Model::kirk2011;
+        c.planes = Planes::rgb;
+        c.parameters.xyz_from_rgb = rec709;
+        c.parameters.xyz_from_gamut.reset();
+        c.parameters.strength.shift = c.parameters.strength.all = 1;
+        const float v = std::abs(c.sample.rgb[0]);
+        c.sample.rgb = {v, v, v};
+        Case shift_alone = c;
+        shift_alone.parameters.luminance = LuminancePolicy::none;
+        shift_alone.parameters.strength.chroma = 0;
+        const auto pixel = c.sample.widened(c.planes);
+        const auto colour = [&](const AppearanceReference& op) {
+          const auto out = op(pixel);
+          const double y = luminance(op, out);
+          return Vec3<double>{out[0] - y, out[1] - y, out[2] - y};
+        };
+        const auto whole = colour(AppearanceReference(c.parameters));
+        const auto line = colour(AppearanceReference(shift_alone.parameters));
+        const double size = largest(whole) * largest(line);
+        if (!(size > 1e-20 * v * v)) return;
+        coverage("coloured");
+        coverage("faded", c.parameters.strength.chroma > 0);
+        RC_ASSERT(dot(whole, line) > 0);
+        RC_ASSERT(largest(cross(whole, line)) <= 1e-15 * size + 1e-15 * v * (largest(whole) + largest(line)));
+      },
+      {{"coloured", 0.5}, {"faded", 0.3}});
 }
 
 TEST(OperatorProperties, only_absolute_light_counts) {
@@ -371,56 +403,6 @@ TEST(OperatorProperties, what_was_in_the_gamut_stays_there) {
       all_regimes({Regime::huge}));
 }
 
-TEST(OperatorProperties, is_continuous_with_a_stated_slope) {
-  // A step in RGB moves light by at most 500 times the step, wherever the step crosses: La = 5, .002, faces, clamps.
-  // (At black the shift alone is 30 times; the weight, falling with Y, and the luminance add to it.)
-  double steepest = 0;
-  for_all(
-      cases(no_light),
-      [&](Case c, Coverage& coverage) {
-        if (c.parameters.model == Model::safko2019) return;
-        c.planes = Planes::rgb;
-        if (!is_light(c)) return;
-        const AppearanceReference op(c.parameters);
-        const auto pixel = c.sample.widened(c.planes);
-        Random random(bits(c.sample.rgb)[1] + 3);
-        const double step = largest(pixel.rgb) * random.log_uniform(1e-7, 0.3);
-        ReferencePixel other = pixel;
-        for (auto& x : other.rgb) x += step * random.uniform(-1, 1);
-        const double moved = distance(op(pixel), op(other)), slope = moved / distance(pixel.rgb, other.rgb);
-        steepest = std::max(steepest, slope);
-        coverage("light");
-        coverage("crossing 5", (local_luminance(op, pixel.rgb) < 5) != (local_luminance(op, other.rgb) < 5));
-        coverage("crossing the gamut's face", *std::min_element(other.rgb.begin(), other.rgb.end()) < 0);
-        RC_ASSERT(slope <= 500);
-      },
-      {{"light", 0.3}, {"crossing 5", 0.002}, {"crossing the gamut's face", 0.02}}, 40000);
-  std::printf("steepest slope of light %.3g\n", steepest);
-}
-
-TEST(OperatorProperties, is_continuous_in_the_adaptation_luminance) {
-  for_all(
-      cases(no_light),
-      [](Case c, Coverage& coverage) {
-        if (c.parameters.model == Model::safko2019) return;
-        c.planes = Planes::rgb;
-        if (!is_light(c)) return;
-        Random random(bits(c.sample.rgb)[0] + 5);
-        const double edges[] = {5, 4.998, 0.002, 0.001, c.parameters.adaptation};
-        const int edge = random.below(5);
-        c.parameters.adaptation = edges[edge];
-        Case other = c;
-        const double step = random.log_uniform(1e-9, 1e-2);
-        other.parameters.adaptation *= 1 - step;
-        const auto pixel = c.sample.widened(c.planes);
-        const auto a = AppearanceReference(c.parameters)(pixel), b = AppearanceReference(other.parameters)(pixel);
-        coverage("at 5", edge == 0);
-        coverage("at the scotopic end", edge == 2 || edge == 3);
-        RC_ASSERT(distance(a, b) <= 100 * step * std::max(largest(a), largest(pixel.rgb)));
-      },
-      {{"at 5", 0.05}, {"at the scotopic end", 0.1}});
-}
-
 TEST(OperatorProperties, float_and_double_agree) {
   for_all(
       cases(),
@@ -433,113 +415,6 @@ TEST(OperatorProperties, float_and_double_agree) {
           RC_ASSERT(std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i])) <= 5e-6 * size);
       },
       all_regimes());
-}
-
-// A hundred pixels of all regimes under one setting.
-struct Row {
-  AppearanceParameters parameters;
-  Planes planes;
-  std::vector<Sample> samples;
-};
-
-Row draw_row(std::uint64_t seed, Coverage& coverage, int pixels) {
-  Random random(seed);
-  Row row{draw_parameters(random), draw_planes(random), {}};
-  const OperatorConstants constants(row.parameters);
-  for (int i = 0; i < pixels; ++i) {
-    const auto regime = static_cast<Regime>(random.below(regime_count));
-    coverage(name(regime));
-    row.samples.push_back(draw(regime, constants, random));
-  }
-  return row;
-}
-
-std::vector<std::array<std::uint32_t, 3>> row_bits(Rows& rows) {
-  std::vector<std::array<std::uint32_t, 3>> out;
-  for (std::size_t i = 0; i < rows.r.size(); ++i) out.push_back(bits(rows.rgb(i)));
-  return out;
-}
-
-const Shares regimes_in_rows = all_regimes();  // each at least once in 50 rows, in fact in nearly all
-
-TEST(BatchProperties, order_and_grouping_of_pixels_do_not_matter) {
-  for_all(
-      seeds(),
-      [](std::uint64_t seed, Coverage& coverage) {
-        const Row row = draw_row(seed, coverage, 70);
-        Random random(seed + 1);
-        const Precision precision = random.chance(0.5) ? Precision::single : Precision::dual;
-        const AppearanceBatch batch(row.parameters, precision);
-        Rows whole(row.samples);
-        batch.apply(whole.view(row.planes));
-        const auto expected = row_bits(whole);
-        std::vector<Sample> shuffled;
-        std::vector<std::size_t> from(row.samples.size());
-        for (std::size_t i = 0; i < from.size(); ++i) from[i] = i;
-        for (std::size_t i = from.size() - 1; i > 0; --i) std::swap(from[i], from[random.bits() % (i + 1)]);
-        for (const std::size_t i : from) shuffled.push_back(row.samples[i]);
-        Rows parts(shuffled);
-        for (std::size_t at = 0; at < shuffled.size();) {
-          PixelRows view = parts.view(row.planes);
-          const std::size_t count = std::min<std::size_t>(1 + random.bits() % 40, shuffled.size() - at);
-          for (float** plane : {&view.r, &view.g, &view.b}) *plane += at;
-          for (const float** plane : {&view.cone_l, &view.cone_m, &view.cone_s, &view.rod})
-            if (*plane) *plane += at;
-          view.count = count;
-          batch.apply(view);
-          at += count;
-        }
-        const auto got = row_bits(parts);
-        for (std::size_t i = 0; i < from.size(); ++i) RC_ASSERT(got[i] == expected[from[i]]);
-      },
-      regimes_in_rows);
-}
-
-TEST(BatchProperties, every_simd_target_gives_the_same_bits) {
-  for_all(
-      seeds(),
-      [](std::uint64_t seed, Coverage& coverage) {
-        const Row row = draw_row(seed, coverage, 37);
-        const Precision precision = seed % 2 ? Precision::single : Precision::dual;
-        const AppearanceBatch batch(row.parameters, precision);
-        std::vector<std::array<std::uint32_t, 3>> expected;
-        for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
-          hwy::SetSupportedTargetsForTest(target);
-          Rows rows(row.samples);
-          batch.apply(rows.view(row.planes));
-          const auto got = row_bits(rows);
-          if (expected.empty()) expected = got;
-          else coverage("a second target");
-          if (got != expected) hwy::SetSupportedTargetsForTest(0);
-          RC_ASSERT(got == expected);
-        }
-        hwy::SetSupportedTargetsForTest(0);
-      },
-      regimes_in_rows);
-}
-
-TEST(BatchProperties, threads_do_not_matter) {
-  for_all(
-      seeds(),
-      [](std::uint64_t seed, Coverage& coverage) {
-        const Row row = draw_row(seed, coverage, 4 * 64);
-        const AppearanceBatch batch(row.parameters);
-        Rows one(row.samples), many(row.samples);
-        batch.apply(one.view(row.planes));
-        std::vector<std::thread> threads;
-        for (std::size_t t = 0; t < 4; ++t)
-          threads.emplace_back([&, t] {
-            PixelRows view = many.view(row.planes);
-            for (float** plane : {&view.r, &view.g, &view.b}) *plane += 64 * t;
-            for (const float** plane : {&view.cone_l, &view.cone_m, &view.cone_s, &view.rod})
-              if (*plane) *plane += 64 * t;
-            view.count = 64;
-            batch.apply(view);
-          });
-        for (auto& thread : threads) thread.join();
-        RC_ASSERT(row_bits(many) == row_bits(one));
-      },
-      regimes_in_rows, 500);
 }
 
 }  // namespace
