@@ -9,11 +9,13 @@ and the properties, stopping at the first that fails. Prints the score and the s
   --only TEXT  only faults whose line holds TEXT      --check  only look whether every fault still applies
 """
 import argparse
+import io
 import os
 import pathlib
 import shutil
 import subprocess
 import sys
+import tarfile
 import tempfile
 import time
 
@@ -56,10 +58,16 @@ def read_mutants():
 
 
 def copy_tree(to):
-    """The last commit, whole: what others are in the middle of is not judged."""
-    to.mkdir(parents=True, exist_ok=True)
+    """The last commit, whole: what others are in the middle of is not judged. Files that are there already keep their
+    time, so that a second run in the same folder builds little."""
     archive = subprocess.run(["git", "archive", "HEAD"], cwd=ROOT, check=True, capture_output=True).stdout
-    subprocess.run(["tar", "x", "-C", to], input=archive, check=True)
+    with tarfile.open(fileobj=io.BytesIO(archive)) as tar:
+        for member in filter(tarfile.TarInfo.isfile, tar.getmembers()):
+            file, content = to / member.name, tar.extractfile(member).read()
+            if not file.exists() or file.read_bytes() != content:
+                file.parent.mkdir(parents=True, exist_ok=True)
+                file.write_bytes(content)
+                file.chmod(member.mode)
 
 
 def run(command, **options):
@@ -68,9 +76,10 @@ def run(command, **options):
 
 def precompile(work):
     """The header with its precompiled forms, for libraries (pic) and programs (pie); GCC takes the one that fits."""
-    header = work / "precompiled.h"
+    header, forms = work / "precompiled.h", work / "precompiled.h.gch"
+    if header.exists() and header.read_text() == PRECOMPILED:
+        return header
     header.write_text(PRECOMPILED)
-    forms = work / "precompiled.h.gch"
     forms.mkdir(exist_ok=True)
     for kind in ("PIC", "PIE"):
         subprocess.run(["g++", "-std=c++20", *FLAGS.split(), "-ffp-contract=off", f"-f{kind}", "-x", "c++-header",
