@@ -81,15 +81,18 @@ const Pixels& test_pixels() {
 const std::string& test_image() {
   static const std::string file = [] {
     const std::string name = work_folder() + "/in.exr";
-    OIIO::ImageSpec spec(side, side, 4, OIIO::TypeFloat);
-    spec.attribute("compression", "none");
-    const auto out = OIIO::ImageOutput::create(name);
-    if (!out || !out->open(name, spec) || !out->write_image(OIIO::TypeFloat, test_pixels().data()) ||
-        !out->close())
-      throw std::runtime_error("cannot write " + name);
+    write_pixels(name, test_pixels(), side);
     return name;
   }();
   return file;
+}
+
+void write_pixels(const std::string& file, const Pixels& pixels, int width) {
+  OIIO::ImageSpec spec(width, static_cast<int>(pixels.size()) / 4 / width, 4, OIIO::TypeFloat);
+  spec.attribute("compression", "none");
+  const auto out = OIIO::ImageOutput::create(file);
+  if (!out || !out->open(file, spec) || !out->write_image(OIIO::TypeFloat, pixels.data()) || !out->close())
+    throw std::runtime_error("cannot write " + file);
 }
 
 Pixels read_pixels(const std::string& file) {

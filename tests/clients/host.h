@@ -34,6 +34,8 @@ const Pixels& test_pixels();
 const std::string& test_image();
 
 Pixels read_pixels(const std::string& file);
+/// Uncompressed float OpenEXR; throws where it cannot be written.
+void write_pixels(const std::string& file, const Pixels& pixels, int width);
 
 /// The shipped config, and test_pixels() as OCIO itself takes them through a transform of it.
 std::string config_file();

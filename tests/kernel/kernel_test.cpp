@@ -85,6 +85,11 @@ TEST(Kernel, filament2021_agrees_with_the_public_function_to_1e_12) {
   EXPECT_LE(worst.error, 1e-12);
 }
 
+TEST(Kernel, filament2021_counts_in_units_of_its_author_s_spot_meter) {
+  // ColorGrading.cpp: 380, its logExposure, for an LMSR of 52.3313 per cd/m2.
+  EXPECT_NEAR(filament2021_scale, 380 * 52.3313, 0.01);
+}
+
 TEST(Kernel, a_sum_below_the_root_s_domain_gives_gain_one_not_nan) {
   const Kernel<double> kernel(kernel_preset(Model::kirk2011), 1.0);
   const Vec3<double> g = kernel.gains({-10, 1, 1}, 1);
