@@ -7,6 +7,7 @@ and the properties, stopping at the first that fails. Prints the score and the s
   scripts/mutation.py [--work DIR] [--jobs N] [--only TEXT] [--check]
 
   --only TEXT  only faults whose line holds TEXT      --check  only look whether every fault still applies
+  --work DIR   goes on where a run in DIR stopped: what was noticed once is not tried again
 """
 import argparse
 import io
@@ -135,7 +136,12 @@ def main():
         return 1
     print(f"without a fault all pass ({time.time() - started:.0f} s)", flush=True)
     killed, survivors, invalid = {test: 0 for test in ALL_TESTS}, [], []
+    noticed = work / "noticed.txt"
+    earlier = dict(x.split("\t", 1)[::-1] for x in noticed.read_text().splitlines()) if noticed.exists() else {}
     for number, (path, old, new, line) in enumerate(mutants, 1):
+        if line in earlier:
+            killed[earlier[line]] += 1
+            continue
         file = tree / path
         text = file.read_text()
         file.write_text(text.replace(old, new))
@@ -147,6 +153,8 @@ def main():
             invalid.append(line)
         elif killer:
             killed[killer] += 1
+            with noticed.open("a") as file:
+                file.write(f"{killer}\t{line}\n")
         else:
             survivors.append(line)
     valid = len(mutants) - len(invalid)
