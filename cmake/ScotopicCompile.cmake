@@ -12,7 +12,7 @@ if(SCOTOPIC_SANITIZE)
   target_compile_options(scotopic_compile INTERFACE
     -fsanitize=${SCOTOPIC_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
     # GCC 12 takes what its own instrumentation reads of a std::optional for uninitialised.
-    -Wno-maybe-uninitialized)
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   # RPATH, not RUNPATH: the sanitizer stands between dlopen and the program whose RUNPATH says where to look.
   target_link_options(scotopic_compile INTERFACE -fsanitize=${SCOTOPIC_SANITIZE} -Wl,--disable-new-dtags)
   # Two SIMD targets (AVX2 and the baseline) instead of five: instrumented vector code takes minutes to compile.

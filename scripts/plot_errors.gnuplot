@@ -20,5 +20,7 @@ set xlabel "log2 of the error in ulp (-16: that or exact)"
 set ylabel "share of the floats tried"
 set xrange [-17:6]
 set yrange [1e-7:2]
-array title[11] = ["gain (double)", "gain (float)", "mesopic coefficient", "pupil", "trolands", "chroma (double)", "chroma (float)", "acuity cutoff", "Lab lightness", "acuity Lab f (float)", "acuity Lab f inverse"]
-plot for [k=1:11] "docs/figures/ulp_octaves.csv" using 1:(column(k+1) > 0 ? column(k+1) : 1e-8) title title[k]
+functions = "gain_double gain_float mesopic_coefficient mesopic_share_float mesopic_share_dual pupil_diameter trolands \
+chroma_factor_double chroma_factor_float acuity_cutoff lab_lightness acuity_lab_f_float acuity_lab_f_inverse_float"
+plot for [f in functions] "docs/figures/ulp_octaves.csv" using (strcol(1) eq f ? $2 : NaN):($3 > 0 ? $3 : 1e-8) \
+     title f noenhanced
