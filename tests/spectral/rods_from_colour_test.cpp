@@ -92,5 +92,47 @@ TEST(RodsFromColour, known_illuminants_cost_a_few_per_cent_and_unknown_ones_far_
   EXPECT_NEAR(errors_under(surfaces, "hps", RodEstimate::linear, false).bias(), 2.80, 0.40);
 }
 
+// Scotopic luminance from XYZ as seen, not balanced, by Ward Larson, Rushmeier & Piatko (1997): no S/P ratio asked.
+double ward_larson(const Vec3<double>& xyz) {
+  return xyz[1] * (1.33 * (1 + (xyz[1] + xyz[2]) / xyz[0]) - 1.68);
+}
+
+// Errors of what an estimate makes of XYZ as it is, the lamp's colour left in.
+template <typename Estimate>
+Errors errors_unbalanced(const std::vector<test::SceneSpectrum>& surfaces, const std::string& lamp, Estimate estimate) {
+  Errors errors;
+  for (const auto& spectrum : test::lit(surfaces, test::lamp(lamp), 1.0)) {
+    const auto truth = test::true_signals(spectrum);
+    const double rods = rod_signal_per_scotopic_luminance() * estimate(Vec3<double>{truth[4], truth[5], truth[6]});
+    errors.relative.push_back(rods / truth[index(Signal::rod)] - 1.0);
+  }
+  return errors;
+}
+
+TEST(RodsFromColour, where_the_lamps_colour_is_left_in_the_picture_it_tells_of_the_lamp) {
+  std::vector<test::SceneSpectrum> surfaces;
+  for (const char* set : {"munsell", "vrhel", "krinov"})
+    for (auto& surface : test::reflectances(set)) surfaces.push_back(std::move(surface));
+  const auto estimated = [](RodEstimate kind) {
+    return [kind](const Vec3<double>& xyz) { return scotopic_luminance_from_xyz(xyz, kind, sp_ratio_d65); };
+  };
+  std::printf("| light | linear | quadratic | Ward Larson 1997 |\n|---|---|---|---|\n");
+  for (const char* lamp : {"d65", "moon", "a", "led4000", "led3000", "hps"}) {
+    const Errors linear = errors_unbalanced(surfaces, lamp, estimated(RodEstimate::linear));
+    const Errors quadratic = errors_unbalanced(surfaces, lamp, estimated(RodEstimate::quadratic));
+    const Errors formula = errors_unbalanced(surfaces, lamp, ward_larson);
+    std::printf("| %s |", lamp);
+    for (const Errors& e : {linear, quadratic, formula})
+      std::printf(" %.1f, %.1f, %.0f (%+.0f) |", 100 * e.mean(), 100 * e.quantile(0.95), 100 * e.quantile(1),
+                  100 * e.bias());
+    std::printf("\n");
+    EXPECT_LT(linear.mean(), errors_under(surfaces, lamp, RodEstimate::linear, false).mean() + 1e-3) << lamp;
+    const bool sodium = std::string(lamp) == "hps";
+    EXPECT_LT(linear.mean(), sodium ? 0.70 : 0.17) << lamp;
+    EXPECT_LT(quadratic.mean(), sodium ? 0.60 : 0.12) << lamp;
+    EXPECT_LT(formula.mean(), sodium ? 0.45 : 0.10) << lamp;
+  }
+}
+
 }  // namespace
 }  // namespace scotopic
