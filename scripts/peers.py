@@ -2,7 +2,7 @@
 """Other programs and formulas for night vision, beside this one, on the same picture: numbers, and with --write
 docs/peers.md and docs/images/peers.jpg.
 
-peers.py [--write] [SCOTOPIC]     (default build/release/src/cli/scotopic)
+peers.py [--write | --picture | --quick | --check] [SCOTOPIC]     (default build/release/src/cli/scotopic)
 
 A program that is not installed is left out, and said; --write wants all of them (Debian: pfstmo pfstools darktable
 opencolorio-tools). Processor time is of the process and its children, user and system; of two pictures, one four times
@@ -323,12 +323,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('--write', action='store_true')
     parser.add_argument('--quick', action='store_true', help='no times')
+    parser.add_argument('--check', action='store_true', help="scotopic's rows alone, no times; exit 1 where they are not as docs/peers.md says")
     parser.add_argument('--picture', action='store_true', help='write docs/images/peers.jpg alone')
     parser.add_argument('program', nargs='?', default=os.path.join(ROOT, 'build/release/src/cli/scotopic'))
     arguments = parser.parse_args()
     night = read(NIGHT)
     rows, pictures, missing = [], [shown(part_of(night), 1)], []
-    for kind in SYSTEMS:
+    for kind in SYSTEMS[:3] if arguments.check else SYSTEMS:
         with tempfile.TemporaryDirectory() as folder:
             system = kind(folder, os.path.abspath(arguments.program))
             if not system.installed():
@@ -336,7 +337,7 @@ def main():
                 print(missing[-1], file=sys.stderr)
                 continue
             if not arguments.picture:
-                rows.append(measure(system, night, arguments.quick))
+                rows.append(measure(system, night, arguments.quick or arguments.check))
                 print(table(rows[-1:]).splitlines()[-1], flush=True)
             if arguments.picture or arguments.write:
                 # One exposure for all: the median of what each makes is as bright as the original's.
@@ -349,6 +350,13 @@ def main():
               [('jpeg:subsampling', '4:4:4'), ('CompressionQuality', 88)])
     if arguments.write:
         write_table(rows)
+    if not arguments.check:
+        return
+    exact, look = rows[0], rows[-1]
+    if not (exact['red'] < .8 and exact['blue'] > 1.5 and exact['tint'] < .03 and
+            exact['nan'].startswith('stays one; 0 %') and look['nan'].startswith('becomes 0; 0 %') and
+            all(abs(exact[k] - look[k]) < .01 for k in ('tint', 'red', 'blue', 'left'))):
+        sys.exit('scotopic and its look are not as docs/peers.md says')
 
 
 main()
