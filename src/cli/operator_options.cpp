@@ -1,6 +1,7 @@
 #include "cli/operator_options.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "cli/values.h"
 #include "receptors/illuminant.h"
@@ -89,6 +90,7 @@ void add_operator_options(CLI::App& verb, OperatorOptions& o) {
   add("--white-luminance", o.white_luminance,
       "What image value 1 stands for; overrides the file's whiteLuminance", "CDM2");
   add("--model", o.model, "filament2021 (default), kirk2011, safko2019", "NAME");
+  add("--safko-scale", o.safko_scale, "T of safko2019: its kernel's units per cd/m2 (default 1)", "X");
   add("--effects", o.effects,
       "auto (default: what the scene calls for), all, none, or of shift,luminance,chroma,acuity", "LIST");
   add("--strength", o.strength, "Of all effects, 0 to 1", "X");
@@ -111,6 +113,10 @@ OperatorChoice understand(const OperatorOptions& o) {
     out.white_luminance = luminance_value("--white-luminance", o.white_luminance);
   AppearanceParameters& p = out.parameters;
   p.model = choice("--model", o.model, models());
+  if (!o.safko_scale.empty()) {
+    if (p.model != Model::safko2019) fail_value("--safko-scale", o.safko_scale, "for --model " + o.model + ": safko2019 alone has it");
+    p.safko_scale = number_in("--safko-scale", o.safko_scale, 1e-9, 1e9, "a number of kernel units per cd/m2, 1e-9 to 1e9");
+  }
   p.strength.all = strength("--strength", o.strength);
   p.strength.shift = strength("--strength-shift", o.strength_shift);
   p.strength.luminance = strength("--strength-luminance", o.strength_luminance);
@@ -129,6 +135,21 @@ void set_primaries(OperatorChoice& choice, const ColourConfig& config) {
   AppearanceParameters& p = choice.parameters;
   p.xyz_from_rgb = config.xyz_from_working();
   p.xyz_from_gamut = choice.gamut == "working" ? p.xyz_from_rgb : gamut_xyz_matrix(choice.gamut);
+}
+
+std::string without_effect(const OperatorOptions& o, const AppearanceParameters& parameters) {
+  if (parameters.model != Model::safko2019) return "";
+  const OperatorOptions usual;
+  std::string out;
+  for (const auto& [name, value, its_usual] :
+       {std::tuple("--strength", &o.strength, &usual.strength),
+        std::tuple("--strength-shift", &o.strength_shift, &usual.strength_shift),
+        std::tuple("--strength-luminance", &o.strength_luminance, &usual.strength_luminance),
+        std::tuple("--strength-chroma", &o.strength_chroma, &usual.strength_chroma),
+        std::tuple("--weight", &o.weight, &usual.weight), std::tuple("--luminance", &o.luminance, &usual.luminance),
+        std::tuple("--gamut", &o.gamut, &usual.gamut)})
+    if (*value != *its_usual) out += (out.empty() ? "" : ", ") + std::string(name);
+  return out;
 }
 
 std::string model_name(Model model) { return name_of_value(models(), model); }

@@ -17,6 +17,7 @@ struct OperatorOptions {
   std::string adaptation = "auto";
   std::string white_luminance;
   std::string model = "filament2021";
+  std::string safko_scale;
   std::string effects = "auto";
   std::string strength = "1";
   std::string strength_shift = "1";
@@ -52,6 +53,9 @@ OperatorChoice understand(const OperatorOptions& options);
 
 /// Sets the primaries: those of the config's working space, and of the gamut chosen.
 void set_primaries(OperatorChoice& choice, const ColourConfig& config);
+
+/// What was asked for and the model has not got: "--strength, --gamut"; empty where there is nothing of the kind.
+std::string without_effect(const OperatorOptions& options, const AppearanceParameters& parameters);
 
 /// Names for messages and metadata.
 std::string model_name(Model model);

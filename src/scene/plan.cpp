@@ -61,7 +61,7 @@ void decide_safko(ScenePlan& plan) {
   for (EffectDecision& d : plan.effects) {
     if (d.effect == "luminance" || d.effect == "chroma") d.asked = false;
     if (d.effect != "shift") continue;
-    d.asked = d.needed = true;
+    d.needed = true;
     d.share = 1;
     d.reason = "safko2019 acts at every luminance";
   }

@@ -57,6 +57,13 @@ TEST(Plan, the_thesis_pipeline_is_never_skipped) {
   EXPECT_FALSE(plan.nothing());
 }
 
+TEST(Plan, the_thesis_pipeline_is_off_when_it_is_not_asked_for) {
+  PlanRequest request = at(0.01);
+  request.parameters.model = Model::safko2019;
+  request.parameters.strength.shift = 0;
+  EXPECT_TRUE(plan_scene(request, nullptr).nothing());
+}
+
 TEST(Plan, a_dark_adapted_eye_that_sees_only_bright_pixels_needs_nothing) {
   PlanRequest request = at(0.01);
   request.parameters.white_luminance = 10;
