@@ -14,3 +14,4 @@ endforeach()
 # By pkg-config: Debian 12's CMake package of OpenColorIO names an include folder that does not exist.
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OpenColorIO REQUIRED IMPORTED_TARGET GLOBAL OpenColorIO>=2.1)
+pkg_check_modules(lcms2 REQUIRED IMPORTED_TARGET GLOBAL lcms2>=2.12)

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "cli/acuity_options.h"
+#include "cli/display_options.h"
+#include "cli/icc_options.h"
 #include "cli/image_options.h"
 #include "cli/operator_options.h"
 #include "cli/precision_options.h"
@@ -26,6 +28,8 @@ struct ApplyOptions {
   PrecisionOptions precision;
   BandOptions bands;
   AcuityOptions acuity;
+  DisplayOptions display;
+  IccOptions icc;
   std::string non_finite = "keep";
   ImageOptions image;
   CommonOptions common;
@@ -51,6 +55,7 @@ std::vector<Attribute> stamps_of(const AppearanceParameters& p, const OperatorCh
                                    {"scotopic:colorspace", layout.output_space.name},
                                    {"whiteLuminance", p.white_luminance / std::exp2(layout.exposure)}};
   if (!own) stamps.push_back({"scotopic:spRatio", p.sp_ratio});  // rods were estimated for that light
+  if (p.model == Model::safko2019) stamps.push_back({"scotopic:safkoScale", p.safko_scale});
   return stamps;
 }
 
@@ -125,12 +130,17 @@ int run_apply(const ApplyOptions& options) {
   const PrecisionChoice precision = understand(options.precision);
   const AcuityChoice acuity_choice = understand(options.acuity);
   const NonFinite non_finite = non_finite_policy(options.non_finite);
-  const ImageRequest request = understand(options.image);
+  ImageRequest request = understand(options.image);
+  const DisplayChoice display_choice = understand(options.display, request);
+  understand(options.icc, request);
   const SpectralOptions spectral = understand(options.bands, choice.illuminant, options.image.layer);
   (void)output_format(options.output);
   const ColourConfig config = ColourConfig::in_force(options.image.config);
   check_spaces(request, config);
+  check_view(request, config, console);
   set_primaries(choice, config);
+  if (const std::string idle = without_effect(options.appearance, choice.parameters); !idle.empty())
+    console.note("without effect under --model safko2019: " + idle);
   set_threads(options.common.threads);
   OutputFile file(options.output);
   const std::unique_ptr<PixelSource> source =
@@ -159,14 +169,22 @@ int run_apply(const ApplyOptions& options) {
   std::vector<Attribute> stamps = stamps_of(parameters, choice, layout);
   stamps.push_back({"scotopic:precision", way.name});
   if (acuity) stamps.push_back({"scotopic:acuityPixelsPerDegree", resolution.pixels_per_degree});
-  set_stamps(layout, stamps);
+  correct_stamps(stamps, display_choice, layout);
   const NonFiniteWatch watch(non_finite);
-  apply_image(*source, layout, config, watch.watched(plan.nothing() ? RowOperator{} : way.apply), file, nullptr,
-              acuity.get());
+  const RowOperator apply = watch.watched(plan.nothing() ? RowOperator{} : way.apply);
+  SpatialFilters filters;
+  if (acuity) filters.push_back(acuity.get());
+  const DisplayStage display =
+      display_stage(display_choice, parameters, *source, layout, config, apply, filters, console);
+  if (display.filter) filters.push_back(display.filter.get());
+  stamps.insert(stamps.end(), display.stamps.begin(), display.stamps.end());
+  set_stamps(layout, stamps);
+  apply_image(*source, layout, config, apply, file, nullptr, filters);
   nlohmann::ordered_json result = result_of(options, numbers, layout, stamps, *source);
   result["effects"] = plan_json(plan);
   result["nonFinite"] = report_non_finite(watch, non_finite, *source, layout, config, console);
   if (!way.report.is_null()) result["ways"] = way.report;
+  if (!display.report.is_null()) result["display"] = display.report;
   console.result(result);
   return static_cast<int>(ExitCode::done);
 }
@@ -180,17 +198,19 @@ void add_apply(CLI::App& program, Invocation& invocation) {
   verb.add_option("input", options->input, "EXR, TIFF, PNG, JPEG or HDR: RGB, L, M, S, R, or spectral bands")
       ->required()
       ->type_name("IN");
-  verb.add_option("-o,--output", options->output, "EXR, TIFF or PNG, by its extension")
+  verb.add_option("-o,--output", options->output, "EXR, TIFF, PNG or JPEG, by its extension")
       ->required()
       ->type_name("OUT");
   add_operator_options(verb, options->appearance);
   add_precision_options(verb, options->precision);
   add_band_options(verb, options->bands);
   add_acuity_options(verb, options->acuity);
+  add_display_options(verb, options->display);
   verb.add_option("--nonfinite", options->non_finite, "NaN and infinite pixels: keep, clean (to 0), or error")
       ->type_name("WHAT");
   add_input_options(verb, options->image);
   add_output_options(verb, options->image);
+  add_icc_options(verb, options->icc);
   add_common_options(verb, options->common);
   on_command_line(verb, invocation, options, run_apply);
 }

@@ -1,5 +1,5 @@
-// Bands of light on their way through the acuity filter, which looks at the rows around a band too: each band
-// waits until they have come.
+// Bands of light on their way through a filter that looks at the rows around a band too (acuity, a display's base
+// layer): each band waits until they have come.
 #pragma once
 
 #include <cstdint>
@@ -36,6 +36,8 @@ class AcuityRows {
   bool next();
   /// The band worked out.
   const Band& band() const { return now_.band; }
+  /// The same, for the next filter; its rows can still be got.
+  Band take_band() { return std::move(now_.band); }
   /// Row `row` of it; any thread.
   void get_row(int row, LightRow& light) const;
 

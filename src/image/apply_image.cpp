@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <deque>
+#include <mutex>
 #include <thread>
 
 #include "image/acuity_rows.h"
@@ -42,27 +44,52 @@ class PictureRun {
     });
   }
 
-  /// The same, with the acuity filter at the end: a band may come out later than it went in, or several at once.
+  /// The same, with filters at the end: a band may come out later than it went in, or several at once.
   template <typename Write>
-  void run(Band&& in, AcuityRows& rows, Band& out, bool interleaved, Write write) const {
-    const Band* band = rows.add(std::move(in));
-    each_row(*band, [&](int row, LightRow& light) {
-      see_row(*band, row, light);
-      rows.set_row(row, light);
-    });
-    while (rows.next()) {
+  void run(Band&& in, std::deque<AcuityRows>& filters, Band& out, bool interleaved, Write write) const {
+    see_band(std::move(in), filters, [&](const AcuityRows& rows) {
       allocate(rows.band(), out, interleaved);
       each_row(rows.band(), [&](int row, LightRow& light) {
         rows.get_row(row, light);
         write_row(rows.band(), row, light, out);
       });
       write(out);
-    }
+    });
+  }
+
+  /// What the operator and all filters make of a band; `use(rows)` for each that comes out.
+  template <typename Use>
+  void see_band(Band&& in, std::deque<AcuityRows>& filters, Use use) const {
+    AcuityRows& first = filters.front();
+    const Band* band = first.add(std::move(in));
+    each_row(*band, [&](int row, LightRow& light) {
+      see_row(*band, row, light);
+      first.set_row(row, light);
+    });
+    pass_on(filters, 0, use);
   }
 
   bool has_alpha() const { return light_.channels.alpha.has_value(); }
 
  private:
+  template <typename Use>
+  static void pass_on(std::deque<AcuityRows>& filters, std::size_t at, Use& use) {
+    AcuityRows& rows = filters[at];
+    while (rows.next()) {
+      if (at + 1 == filters.size()) {
+        use(rows);
+        continue;
+      }
+      AcuityRows& next = filters[at + 1];
+      const Band* band = next.add(rows.take_band());
+      each_row(*band, [&](int row, LightRow& light) {
+        rows.get_row(row, light);
+        next.set_row(row, light);
+      });
+      pass_on(filters, at + 1, use);
+    }
+  }
+
   void allocate(const Band& in, Band& out, bool interleaved) const {
     const std::vector<Channel>& channels = out_.picture.channels;
     if (interleaved)
@@ -170,6 +197,13 @@ PixelRows columns(PixelRows rows, std::uint64_t first, int count) {
   return rows;
 }
 
+/// A picture's way through each filter, in their order.
+std::deque<AcuityRows> filter_rows(const SpatialFilters& filters, const Picture& picture, bool descending, bool alpha) {
+  std::deque<AcuityRows> out;
+  for (const SpatialFilter* filter : filters) out.emplace_back(*filter, picture.data, descending, alpha);
+  return out;
+}
+
 std::int64_t all_rows(const ImageLayout& layout) {
   std::int64_t rows = 0;
   for (const OutputPicture& out : layout.outputs) rows += out.copy ? 0 : out.picture.data.height();
@@ -226,9 +260,41 @@ SceneStatistics measure_image(PixelSource& source, const ImageLayout& layout, co
   return all;
 }
 
+LuminanceHistogram measure_base(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+                                const RowOperator& apply, const SpatialFilters& filters) {
+  LuminanceHistogram all;
+  std::mutex lock;
+  Band in;
+  for (const OutputPicture& out : layout.outputs) {
+    const Picture& picture = source.pictures()[out.source];
+    if (out.copy || picture.level_x != 0 || picture.level_y != 0) continue;
+    const PictureRun run(source, layout, config, apply, out);
+    std::deque<AcuityRows> rows_of_filters = filter_rows(filters, picture, false, false);
+    each_band(picture, false, [&](int y0, int rows) {
+      source.read(out.source, y0, rows, in);
+      run.see_band(std::move(in), rows_of_filters, [&](const AcuityRows& seen) {
+        const auto width = static_cast<std::size_t>(seen.band().width);
+        parallel_rows(seen.band().rows, std::max(1, (seen.band().rows + 15) / 16), [&](int first, int last) {
+          LuminanceHistogram part;
+          LightRow light(width);
+          for (int row = first; row < last; ++row) {
+            seen.get_row(row, light);
+            for (const float luminance : light.r)
+              if (luminance > 0) part.add(luminance);
+          }
+          const std::lock_guard guard(lock);
+          all.add(part);
+        });
+      });
+      in = Band();
+    });
+  }
+  return all;
+}
+
 void apply_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
                  const RowOperator& apply, OutputFile& file, const Progress& progress,
-                 const SpatialFilter* acuity) {
+                 const SpatialFilters& filters) {
   const std::unique_ptr<PixelSink> sink = open_sink(layout.format, file, source, layout.outputs);
   const std::int64_t total = all_rows(layout);
   std::int64_t done = 0;
@@ -243,8 +309,7 @@ void apply_image(PixelSource& source, const ImageLayout& layout, const ColourCon
     const Picture& picture = source.pictures()[layout.outputs[i].source];
     // OpenEXR wants the rows in the order that its header states, the other formats from the top.
     const bool descending = picture.descending && layout.format == "openexr";
-    std::optional<AcuityRows> acuity_rows;
-    if (acuity) acuity_rows.emplace(*acuity, picture.data, descending, run.has_alpha());
+    std::deque<AcuityRows> rows_of_filters = filter_rows(filters, picture, descending, run.has_alpha());
     const auto write = [&](const Band& seen) {
       sink->write(i, seen);
       done += seen.rows;
@@ -252,8 +317,8 @@ void apply_image(PixelSource& source, const ImageLayout& layout, const ColourCon
     };
     each_band(picture, descending, [&](int y0, int rows) {
       source.read(layout.outputs[i].source, y0, rows, in);
-      if (acuity_rows) {
-        run.run(std::move(in), *acuity_rows, out, sink->interleaved(), write);
+      if (!filters.empty()) {
+        run.run(std::move(in), rows_of_filters, out, sink->interleaved(), write);
         in = Band();
       } else {
         run.run(in, out, sink->interleaved());

@@ -31,6 +31,9 @@ struct ImageRequest {
   std::string layer;                       ///< --layer: a channel prefix or the name of a part
   std::optional<std::string> colourspace;  ///< of the input
   std::optional<std::string> output_colourspace;
+  std::optional<std::string> view;                      ///< --display: [DISPLAY/]VIEW, in place of a colour space
+  std::shared_ptr<const IccProfile> profile = nullptr;  ///< --icc, likewise
+  int jpeg_quality = 95;
   std::optional<PixelType> type;  ///< of the output's colour channels
   double exposure = 0;            ///< EV, applied to the result
 };
@@ -74,12 +77,20 @@ SceneStatistics measure_image(PixelSource& source, const ImageLayout& layout, co
                               const AppearanceParameters& parameters,
                               const std::optional<Window>& region = std::nullopt);
 
+/// One after the other, each looking at what the one before has made of the whole picture.
+using SpatialFilters = std::vector<const SpatialFilter*>;
+
+/// One pass over the light of all pictures (full resolution only): the values above 0 that the last of `filters`
+/// leaves in R, in image units. What is added up are integers, so that threads make no difference.
+LuminanceHistogram measure_base(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+                                const RowOperator& apply, const SpatialFilters& filters);
+
 /// Writes the whole output. Without `apply` (empty) nothing is called for: where nothing else changes values either,
-/// the file's own bytes go through. `acuity` is applied last, to each picture by itself. Same bytes for any number of
+/// the file's own bytes go through. `filters` are applied last, to each picture by itself. Same bytes for any number of
 /// threads.
 void apply_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
                  const RowOperator& apply, OutputFile& file, const Progress& progress = nullptr,
-                 const SpatialFilter* acuity = nullptr);
+                 const SpatialFilters& filters = {});
 
 /// Threads for rows and for OpenEXR's chunks; 0: one for each processor.
 void set_threads(int count);

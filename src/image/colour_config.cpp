@@ -43,8 +43,13 @@ RowConverter::RowConverter(const Matrix3<double>& matrix) : matrix_(matrix) {}
 RowConverter::RowConverter(OCIO::ConstCPUProcessorRcPtr processor)
     : processor_(processor && !processor->isNoOp() ? std::move(processor) : nullptr) {}
 
+RowConverter::RowConverter(std::shared_ptr<const IccProfile> profile, const Matrix3<double>& xyz_from_rgb)
+    : matrix_(xyz_from_rgb), profile_(std::move(profile)) {}
+
 void RowConverter::apply(float* r, float* g, float* b, std::size_t count) const {
-  if (matrix_) {
+  if (profile_) {
+    profile_->apply(*matrix_, r, g, b, count);
+  } else if (matrix_) {
     for (std::size_t i = 0; i < count; ++i) {
       const Vec3<double> p = *matrix_ * Vec3<double>{r[i], g[i], b[i]};
       r[i] = static_cast<float>(p[0]);
@@ -171,14 +176,58 @@ ColourSpace ColourConfig::space_of_file(const std::string& file, bool integer) c
   return has_space(rule_space) ? space(rule_space) : space(OCIO::ROLE_SCENE_LINEAR);
 }
 
+std::vector<std::string> ColourConfig::displays() const {
+  std::vector<std::string> out;
+  for (int i = 0; i < config_->getNumDisplays(); ++i) out.emplace_back(config_->getDisplay(i));
+  return out;
+}
+
+std::vector<std::string> ColourConfig::views(const std::string& display) const {
+  std::vector<std::string> out;
+  for (int i = 0; i < config_->getNumViews(display.c_str()); ++i)
+    out.emplace_back(config_->getView(display.c_str(), i));
+  return out;
+}
+
+ColourSpace ColourConfig::view(const std::string& name) const {
+  const std::string usual = config_->getDefaultDisplay();
+  std::vector<std::string> known;
+  for (const std::string& view : views(usual)) {
+    if (view == name) return {name, std::nullopt, DisplayView{usual, view}};
+    known.push_back(view);
+  }
+  for (const std::string& display : displays())
+    for (const std::string& view : views(display)) {
+      known.push_back(display + "/" + view);
+      if (known.back() == name) return {name, std::nullopt, DisplayView{display, view}};
+    }
+  fail("unknown view '" + name + "'" + did_you_mean(name, known));
+}
+
+std::string ColourConfig::looks_of(const DisplayView& view) const {
+  const char* const looks = config_->getDisplayViewLooks(view.display.c_str(), view.view.c_str());
+  return looks ? looks : "";
+}
+
+OCIO::ConstCPUProcessorRcPtr ColourConfig::processor(const DisplayView& to) const {
+  try {
+    return config_->getProcessor(working_space_.c_str(), to.display.c_str(), to.view.c_str(),
+                                 OCIO::TRANSFORM_DIR_FORWARD)
+        ->getOptimizedCPUProcessor(OCIO::BIT_DEPTH_F32, OCIO::BIT_DEPTH_F32, optimisation);
+  } catch (const std::exception& e) {
+    fail("no way to view '" + to.view + "' of display '" + to.display + "': " + one_line(e.what()));
+  }
+}
+
 bool ColourConfig::same(const ColourSpace& a, const ColourSpace& b) const {
+  if (a.for_a_device() || b.for_a_device()) return false;
   if (a.name == b.name && a.xyz_from_rgb.has_value() == b.xyz_from_rgb.has_value()) return true;
   if (!a.xyz_from_rgb && !b.xyz_from_rgb) return processor(a.name, b.name)->isNoOp();
   return to_working(a).identity() && to_working(b).identity();
 }
 
 bool ColourConfig::is_srgb(const ColourSpace& space) const {
-  if (space.xyz_from_rgb) return false;
+  if (space.xyz_from_rgb || space.profile) return false;
   const RowConverter convert = from_working(space);
   // Mid-grey and a saturated colour: sRGB's curve and primaries, to 1e-4 of full scale.
   constexpr Vec3<double> encoded = {.5, .25, .75};
@@ -196,6 +245,7 @@ bool ColourConfig::is_srgb(const ColourSpace& space) const {
 
 std::optional<Matrix3<double>> ColourConfig::linear_xyz(const ColourSpace& space) const {
   if (space.xyz_from_rgb) return space.xyz_from_rgb;
+  if (space.for_a_device()) return std::nullopt;
   const std::optional<Matrix3<double>> working = linear_matrix(space.name, working_space_);
   return working ? std::optional(xyz_from_working_ * *working) : std::nullopt;
 }
@@ -208,6 +258,8 @@ RowConverter ColourConfig::to_working(const ColourSpace& from) const {
 }
 
 RowConverter ColourConfig::from_working(const ColourSpace& to) const {
+  if (to.profile) return RowConverter(to.profile, xyz_from_working_);
+  if (to.view) return RowConverter(processor(*to.view));
   if (!to.xyz_from_rgb) return RowConverter(processor(working_space_, to.name));
   const NamedPrimaries* known = match_matrix(*to.xyz_from_rgb);
   if (known && known->name == working_gamut_) return RowConverter();

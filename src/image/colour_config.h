@@ -4,20 +4,34 @@
 #include <OpenColorIO/OpenColorIO.h>
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "image/icc_profile.h"
 #include "image/primaries.h"
 #include "kernel/matrix3.h"
 
 namespace scotopic {
 
-/// An RGB space: one of the config's, or linear light with the primaries that a file states.
+/// A way to look at light on a display, as a config names it.
+struct DisplayView {
+  std::string display;
+  std::string view;
+};
+
+/// An RGB space: one of the config's; linear light with the primaries that a file states; what a display is sent under
+/// one of the config's views; or the values of a device that an ICC profile describes. Where `name` is not the config's
+/// it is only for the reader.
 struct ColourSpace {
   std::string name;
-  /// Set for linear light with stated primaries; then `name` is only for the reader.
-  std::optional<Matrix3<double>> xyz_from_rgb;
+  std::optional<Matrix3<double>> xyz_from_rgb = std::nullopt;  ///< of linear light with stated primaries
+  std::optional<DisplayView> view = std::nullopt;              ///< results only
+  std::shared_ptr<const IccProfile> profile = nullptr;         ///< results only
+
+  /// Values are for a device, no longer light.
+  bool for_a_device() const noexcept { return view || profile; }
 };
 
 /// A conversion of planar RGB float rows, in place. Cheap to copy; share it between threads.
@@ -27,6 +41,8 @@ class RowConverter {
   RowConverter() = default;  ///< the identity
   explicit RowConverter(const Matrix3<double>& matrix);
   explicit RowConverter(OCIO_NAMESPACE::ConstCPUProcessorRcPtr processor);
+  /// Device values of linear light.
+  RowConverter(std::shared_ptr<const IccProfile> profile, const Matrix3<double>& xyz_from_rgb);
 
   bool identity() const noexcept { return !matrix_ && !processor_; }
   void apply(float* r, float* g, float* b, std::size_t count) const;
@@ -34,6 +50,7 @@ class RowConverter {
  private:
   std::optional<Matrix3<double>> matrix_;
   OCIO_NAMESPACE::ConstCPUProcessorRcPtr processor_;
+  std::shared_ptr<const IccProfile> profile_;
 };
 
 /// Throws Error(ExitCode::config) whenever the config or one of its spaces is at fault.
@@ -57,7 +74,12 @@ class ColourConfig {
 
   /// The canonical name of a space, role or alias; for an unknown one, an error that lists close names.
   std::string resolve(const std::string& name) const;
-  ColourSpace space(const std::string& name) const { return {resolve(name), std::nullopt}; }
+  ColourSpace space(const std::string& name) const { return {resolve(name)}; }
+  /// What a display is sent under a view: VIEW of the config's default display, or DISPLAY/VIEW. For a name that does not
+  /// exist, an error that lists close ones.
+  ColourSpace view(const std::string& name) const;
+  /// The looks that a view applies by itself; empty where it has none.
+  std::string looks_of(const DisplayView& view) const;
   bool has_space(const std::string& name) const;
   /// What the config's rules say of a file. `integer` pixels that only the default rule matches are taken to
   /// be display-encoded: role default_byte, where there is one.
@@ -80,6 +102,9 @@ class ColourConfig {
   void find_xyz();
   std::optional<Matrix3<double>> linear_matrix(const std::string& from, const std::string& to) const;
   OCIO_NAMESPACE::ConstCPUProcessorRcPtr processor(const std::string& from, const std::string& to) const;
+  OCIO_NAMESPACE::ConstCPUProcessorRcPtr processor(const DisplayView& to) const;
+  std::vector<std::string> displays() const;
+  std::vector<std::string> views(const std::string& display) const;
   [[noreturn]] void fail(const std::string& what) const;
 
   OCIO_NAMESPACE::ConstConfigRcPtr config_;

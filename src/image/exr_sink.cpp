@@ -166,15 +166,18 @@ class ExrSink : public PixelSink {
     set_channels(header, out.picture.channels);
     make_lossless(header);
     if (out.new_space) {
-      header.erase("chromaticities");
+      for (const char* name : {"chromaticities", "adoptedNeutral"}) header.erase(name);
       if (out.primaries) set_primaries(header, *out.primaries);
+      if (out.adopted_neutral) Imf::addAdoptedNeutral(header, v2f(*out.adopted_neutral));
     }
+    if (out.for_a_device) header.erase("whiteLuminance");
     for (const Attribute& stamp : out.stamps) set_attribute(header, stamp);
     return header;
   }
 
+  static Imath::V2f v2f(Xy c) { return {static_cast<float>(c.x), static_cast<float>(c.y)}; }
+
   static void set_primaries(Imf::Header& header, const Primaries& p) {
-    const auto v2f = [](Xy c) { return Imath::V2f(static_cast<float>(c.x), static_cast<float>(c.y)); };
     Imf::addChromaticities(header, Imf::Chromaticities(v2f(p.red), v2f(p.green), v2f(p.blue), v2f(p.white)));
   }
 

@@ -2,6 +2,7 @@
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticitiesAttribute.h>
+#include <OpenEXR/ImfVecAttribute.h>
 #include <OpenEXR/ImfCompression.h>
 #include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -13,6 +14,7 @@
 #include <OpenEXR/ImfTileDescription.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <exception>
 
@@ -30,6 +32,15 @@ bool is_tiled(const Imf::Header& header) { return header.hasTileDescription(); }
 std::optional<double> float_attribute(const Imf::Header& header, const char* name) {
   const auto* found = header.findTypedAttribute<Imf::FloatAttribute>(name);
   return found ? std::optional<double>(found->value()) : std::nullopt;
+}
+
+std::optional<Xy> adopted_neutral_of(const Imf::Header& header) {
+  const auto* const found = header.findTypedAttribute<Imf::V2fAttribute>("adoptedNeutral");
+  if (!found) return std::nullopt;
+  const Xy xy = {static_cast<double>(found->value().x), static_cast<double>(found->value().y)};
+  // Farther than that from equal energy lies no white, and adaptation to it breaks down.
+  const auto near = [](double c) { return std::abs(c - 1.0 / 3) < 0.12; };
+  return near(xy.x) && near(xy.y) ? std::optional(xy) : std::nullopt;
 }
 
 std::optional<Primaries> primaries_of(const Imf::Header& header) {
@@ -121,6 +132,7 @@ void ExrSource::add_pictures(int part) {
   picture.display = window_of(header.displayWindow());
   picture.readable = !is_deep(header);
   picture.primaries = primaries_of(header);
+  picture.adopted_neutral = adopted_neutral_of(header);
   picture.white_luminance = float_attribute(header, "whiteLuminance");
   picture.lmsr_unit = float_attribute(header, "scotopic:lmsrUnit");
   picture.chunk_rows = rows_compressed_together(header);

@@ -20,6 +20,9 @@ void choose_space(const PixelSource& source, const ColourConfig& config, const I
   } else if (request.colourspace) {
     light.space = config.space(*request.colourspace);
     light.space_reason = "--colorspace";
+  } else if (picture.primaries && are_cie_xyz(*picture.primaries)) {
+    light.space = {"CIE XYZ", bradford(picture.adopted_neutral.value_or(white_d65), white_d65)};
+    light.space_reason = picture.adopted_neutral ? "the file's chromaticities and neutral" : "the file's chromaticities";
   } else if (const NamedPrimaries* known =
                  picture.primaries ? match_primaries(*picture.primaries) : nullptr) {
     light.space = {std::string(known->label), xyz_d65_from_rgb(known->primaries)};
@@ -113,9 +116,10 @@ std::string listed(const std::vector<PixelType>& types) {
   return out;
 }
 
-/// The type a colour channel gets: as asked, else its own, else the nearest that loses nothing the eye sees.
-PixelType output_type(const std::string& format, const std::string& output, PixelType own,
-                      const std::optional<PixelType>& asked) {
+/// The type a colour channel gets: as asked, else its own, else the nearest that loses nothing the eye sees. What goes
+/// to a device is whole numbers, but in OpenEXR.
+PixelType output_type(const std::string& format, const std::string& output, PixelType own, const ImageRequest& request) {
+  const std::optional<PixelType>& asked = request.type;
   const std::vector<PixelType>& possible = pixel_types_of(format);
   const auto can = [&](PixelType type) {
     return std::find(possible.begin(), possible.end(), type) != possible.end();
@@ -127,7 +131,9 @@ PixelType output_type(const std::string& format, const std::string& output, Pixe
           "-d " + std::string(name_of(*asked)) + " does not fit this format (" + listed(possible) + ")");
     return *asked;
   }
+  if (format == "tiff" && (request.view || request.profile) && !is_integer(own)) return PixelType::uint16;
   if (can(own)) return own;
+  if (format == "jpeg") return PixelType::uint8;
   if (format == "openexr") return own == PixelType::uint8 ? PixelType::half : PixelType::float32;
   return format == "png" ? PixelType::uint16 : PixelType::float32;
 }
@@ -138,11 +144,13 @@ ColourSpace choose_output_space(const PixelSource& source, const std::string& ou
                                 const ColourConfig& config, const ImageRequest& request,
                                 const ImageLayout& layout) {
   if (request.output_colourspace) return config.space(*request.output_colourspace);
+  if (request.view) return config.view(*request.view);
+  if (request.profile) return {request.profile->description(), std::nullopt, std::nullopt, request.profile};
   const LightPicture& light = layout.light.front();
   const Picture& picture = source.pictures()[light.index];
   const bool receptors = light.channels.kind == Kind::lmsr || light.channels.kind == Kind::computed;
   const PixelType in = receptors ? PixelType::float32 : picture.channels[light.channels.index[0]].type;
-  const PixelType out = output_type(layout.format, output, in, request.type);
+  const PixelType out = output_type(layout.format, output, in, request);
   if (is_integer(in) == is_integer(out)) return light.space;
   return is_integer(out) ? config.space_of_file(output, true) : config.space(config.working_space());
 }
@@ -156,7 +164,7 @@ std::vector<Channel> output_channels(const Picture& picture, const LightPicture&
   const auto type_of = [&](std::size_t i) {
     const PixelType own =
         colour.kind == Kind::computed ? PixelType::float32 : picture.channels[colour.index[i]].type;
-    return output_type(format, output, own, request.type);
+    return output_type(format, output, own, request);
   };
   std::vector<Channel> out;
   const char* const names[3] = {"R", "G", "B"};
@@ -168,7 +176,7 @@ std::vector<Channel> output_channels(const Picture& picture, const LightPicture&
   }
   for (std::size_t c = 0; c < picture.channels.size(); ++c) {
     if (colour.is_colour(c)) continue;
-    const bool alpha = colour.alpha == c;
+    const bool alpha = colour.alpha == c && format != "jpeg";
     if (keep_others || alpha)
       out.push_back({alpha && !keep_others ? "A" : picture.channels[c].name,
                      format == "openexr" && !is_integer(picture.channels[c].type) ? picture.channels[c].type
@@ -188,13 +196,21 @@ OutputPicture light_output(const PixelSource& source, const LightPicture& light,
   out.picture = picture;
   const bool same_kind = source.format() == layout.format;
   out.picture.channels = output_channels(picture, light, layout.format, output, request,
-                                         same_kind ? layout.format != "png" : layout.format == "openexr");
-  if (layout.format == "openexr") out.picture.unassociated_alpha = false;
+                                         same_kind ? layout.format == "openexr" || layout.format == "tiff"
+                                                   : layout.format == "openexr");
+  if (layout.format == "openexr" || layout.format == "jpeg") out.picture.unassociated_alpha = false;
   if (layout.format == "png") out.picture.unassociated_alpha = true;
   const bool receptors = light.channels.kind == Kind::lmsr || light.channels.kind == Kind::computed;
   out.new_space = receptors || !config.same(light.space, layout.output_space);
   const std::optional<Matrix3<double>> xyz = config.linear_xyz(layout.output_space);
   if (const NamedPrimaries* known = xyz ? match_matrix(*xyz) : nullptr) out.primaries = known->primaries;
+  if (xyz && is_cie_xyz(*xyz)) {
+    out.primaries = cie_xyz_primaries();
+    out.adopted_neutral = white_d65;
+  }
+  out.for_a_device = layout.output_space.for_a_device();
+  out.profile = request.profile;
+  out.jpeg_quality = request.jpeg_quality;
   out.srgb = config.is_srgb(layout.output_space);
   return out;
 }
@@ -229,6 +245,8 @@ ImageLayout plan_layout(const PixelSource& source, const std::string& output, co
   ImageLayout layout;
   layout.format = output_format(output);
   layout.exposure = request.exposure;
+  if (request.profile && layout.format == "openexr")
+    throw Error(ExitCode::usage, output, "--icc: OpenEXR holds no profile; TIFF, PNG and JPEG do");
   layout.light = find_light(source, config, request);
   layout.output_space = choose_output_space(source, output, config, request, layout);
   const bool whole = layout.format == "openexr" ? source.format() == "openexr" : false;

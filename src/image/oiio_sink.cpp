@@ -130,12 +130,23 @@ class OiioSink : public PixelSink {
     }
     if (source.format() != format_) spec.tile_width = spec.tile_height = spec.tile_depth = 0;
     if (source.format() == "jpeg") spec.attribute("compression", "zip");  // pixels as computed, not lossy
+    if (format_ == "jpeg") {
+      spec.attribute("compression", "jpeg:" + std::to_string(out.jpeg_quality));
+      spec.attribute("jpeg:subsampling", "4:4:4");
+    }
     spec.erase_attribute("oiio:BitsPerSample");
     if (out.new_space) spec.erase_attribute("ICCProfile");
     if (out.new_space || !oiio) spec.attribute("oiio:ColorSpace", out.srgb ? "sRGB" : "Linear");
+    // The profile alone says what the values mean.
+    if (out.profile) set_profile(spec, out.profile->bytes());
     spec.attribute("oiio:UnassociatedAlpha", picture.unassociated_alpha ? 1 : 0);
     set_stamps(spec, format_, out.stamps);
     return spec;
+  }
+
+  static void set_profile(OIIO::ImageSpec& spec, const std::vector<std::byte>& profile) {
+    for (const char* name : {"oiio:ColorSpace", "oiio:Gamma", "png:gAMA", "Exif:ColorSpace"}) spec.erase_attribute(name);
+    spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(profile.size())), profile.data());
   }
 
   static void set_geometry(OIIO::ImageSpec& spec, const Picture& picture) {

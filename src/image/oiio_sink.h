@@ -1,4 +1,4 @@
-// TIFF and PNG output through OpenImageIO; see open_sink().
+// TIFF, PNG and JPEG output through OpenImageIO; see open_sink().
 #pragma once
 
 #include "image/pixel_sink.h"

@@ -72,6 +72,7 @@ struct Picture {
   /// Colour values are not multiplied by alpha.
   bool unassociated_alpha = false;
   std::optional<Primaries> primaries;
+  std::optional<Xy> adopted_neutral;  ///< attribute adoptedNeutral: what counts as white
   std::optional<double> white_luminance;  ///< attribute whiteLuminance, cd/m2
   std::optional<double> lmsr_unit;        ///< attribute scotopic:lmsrUnit, cd/m2 (docs: image/apply_image.h)
 };

@@ -11,13 +11,14 @@ namespace scotopic {
 
 std::string output_format(const std::string& path) {
   static const std::map<std::string, std::string> formats = {
-      {".exr", "openexr"}, {".tif", "tiff"}, {".tiff", "tiff"}, {".png", "png"}};
+      {".exr", "openexr"}, {".tif", "tiff"}, {".tiff", "tiff"}, {".png", "png"},
+      {".jpg", "jpeg"},    {".jpeg", "jpeg"}};
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
   const auto found = formats.find(extension);
   if (found == formats.end())
-    throw Error(ExitCode::usage, path, "output must be named .exr, .tif, .tiff or .png");
+    throw Error(ExitCode::usage, path, "output must be named .exr, .tif, .tiff, .png, .jpg or .jpeg");
   return found->second;
 }
 
@@ -25,7 +26,8 @@ const std::vector<PixelType>& pixel_types_of(const std::string& format) {
   static const std::map<std::string, std::vector<PixelType>> types = {
       {"openexr", {PixelType::half, PixelType::float32}},
       {"tiff", {PixelType::uint8, PixelType::uint16, PixelType::half, PixelType::float32}},
-      {"png", {PixelType::uint8, PixelType::uint16}}};
+      {"png", {PixelType::uint8, PixelType::uint16}},
+      {"jpeg", {PixelType::uint8}}};
   return types.at(format);
 }
 

@@ -1,10 +1,11 @@
-// Where pixels go: an OpenEXR, TIFF or PNG file that appears when all of it is written.
+// Where pixels go: an OpenEXR, TIFF, PNG or JPEG file that appears when all of it is written.
 #pragma once
 
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "image/icc_profile.h"
 #include "image/output_file.h"
 #include "image/pixel_source.h"
 
@@ -20,7 +21,11 @@ struct OutputPicture {
   /// Colour values changed their space: an ICC profile or chromaticities of the source no longer hold.
   bool new_space = false;
   std::optional<Primaries> primaries;  ///< of the new space, where it has such
+  std::optional<Xy> adopted_neutral;   ///< of the new space, where its white is not that of (1, 1, 1)
   bool srgb = false;                   ///< colour values are encoded with sRGB's curve
+  bool for_a_device = false;           ///< values are what a device is sent: no cd/m2 belong to them any more
+  std::shared_ptr<const IccProfile> profile = nullptr;  ///< of that device, to be embedded
+  int jpeg_quality = 95;                                ///< 1 to 100
 };
 
 /// Errors are Error(ExitCode::output). One thread at a time.
@@ -37,14 +42,14 @@ class PixelSink {
   virtual void finish() = 0;
 };
 
-/// openexr, tiff or png by the name's extension; Error(usage) for any other.
+/// openexr, tiff, png or jpeg by the name's extension; Error(usage) for any other.
 std::string output_format(const std::string& path);
 
 /// Types of colour channels that the format can hold.
 const std::vector<PixelType>& pixel_types_of(const std::string& format);
 
 /// OpenEXR: header, tiles, order of lines and compression of the source (ZIP in place of a lossy one).
-/// `source` and `file` must outlive the sink. TIFF: one page for each picture; PNG: exactly one picture.
+/// `source` and `file` must outlive the sink. TIFF: one page for each picture; PNG and JPEG: exactly one picture.
 std::unique_ptr<PixelSink> open_sink(const std::string& format, OutputFile& file, PixelSource& source,
                                      const std::vector<OutputPicture>& pictures);
 

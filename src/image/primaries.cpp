@@ -6,7 +6,7 @@
 namespace scotopic {
 namespace {
 
-constexpr Xy d65{0.3127, 0.3290};
+constexpr Xy d65 = white_d65;
 // The white of ST 2065-1: close to, but not, CIE D60.
 constexpr Xy aces_white{0.32168, 0.33767};
 constexpr double chromaticity_tolerance = 1e-3;
@@ -63,6 +63,20 @@ std::optional<Matrix3<double>> gamut_xyz_matrix(std::string_view name) {
   for (const NamedPrimaries& set : known_primaries())
     if (set.name == name) return xyz_d65_from_rgb(set.primaries);
   return std::nullopt;
+}
+
+const Primaries& cie_xyz_primaries() {
+  static const Primaries xyz = {{1, 0}, {0, 1}, {0, 0}, {1.0 / 3, 1.0 / 3}};
+  return xyz;
+}
+
+bool are_cie_xyz(const Primaries& p) {
+  const Primaries& q = cie_xyz_primaries();
+  return close(p.red, q.red) && close(p.green, q.green) && close(p.blue, q.blue) && close(p.white, q.white);
+}
+
+bool is_cie_xyz(const Matrix3<double>& m) {
+  return largest_difference(m, identity3<double>()) <= matrix_tolerance;
 }
 
 const NamedPrimaries* match_primaries(const Primaries& p) {

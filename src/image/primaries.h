@@ -31,6 +31,9 @@ struct NamedPrimaries {
 /// 2065-1).
 const std::vector<NamedPrimaries>& known_primaries();
 
+/// The white of sRGB, BT.709 and all D65 spaces here: x = .3127, y = .3290.
+inline constexpr Xy white_d65{0.3127, 0.3290};
+
 /// CIE XYZ with white Y = 1 from linear RGB, unadapted. The primaries must not lie on one line.
 Matrix3<double> xyz_from_rgb(const Primaries& primaries);
 
@@ -42,6 +45,12 @@ Matrix3<double> xyz_d65_from_rgb(const Primaries& primaries);
 
 /// XYZ (D65) from the linear RGB of "rec709", "rec2020", "p3", "ap1" or "ap0"; nullopt for another name.
 std::optional<Matrix3<double>> gamut_xyz_matrix(std::string_view name);
+
+/// Chromaticities by which OpenEXR says that R, G, B are CIE X, Y, Z themselves: (1,0), (0,1), (0,0), white (1/3,1/3).
+const Primaries& cie_xyz_primaries();
+bool are_cie_xyz(const Primaries& primaries);
+/// Whether a space's RGB is CIE XYZ (D65): its matrix is the identity, to 5e-4.
+bool is_cie_xyz(const Matrix3<double>& xyz_from_rgb);
 
 /// The known set whose chromaticities all lie within 1e-3 of these; nullptr if there is none.
 /// (Files hold them as float, often rounded to three or four digits.)

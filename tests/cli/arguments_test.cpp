@@ -42,7 +42,7 @@ const std::vector<Fault>& faults() {
       {{"apply", "/dev/null", "-o", "OUT", "--adaptation", "1"}, 3, "not a regular file"},
       {{"apply", "IN", "-o", "FOLDER/none/out.exr", "--adaptation", "1"}, 5, "does not exist"},
       {{"apply", "IN", "-o", "FOLDER", "--adaptation", "1"}, 2, "must be named"},
-      {{"apply", "IN", "-o", "out.jpg", "--adaptation", "1"}, 2, "must be named"},
+      {{"apply", "IN", "-o", "out.gif", "--adaptation", "1"}, 2, "must be named"},
       {apply({"--adaptation", "0"}), 2, "'0' is not a luminance"},
       {apply({"--adaptation=-1"}), 2, "'-1' is not a luminance"},
       {apply({"--adaptation", "nan"}), 2, "'nan' is not a luminance"},
@@ -81,6 +81,27 @@ const std::vector<Fault>& faults() {
       {apply({"--max-channels", "2"}), 4, "--max-channels"},
       {apply({"-v", "-q"}), 2, "--quiet"},
       {apply({"extra"}), 2, "extra"},
+      {apply({"--safko-scale", "2"}), 2, "safko2019 alone"},
+      {apply({"--model", "safko2019", "--safko-scale", "0"}), 2, "--safko-scale: '0'"},
+      {apply({"--display", "Filmic"}), 6, "unknown view 'Filmic'"},
+      {apply({"--display", "sRGB - Display/Un-tone-maped"}), 6, "did you mean"},
+      {apply({"--display", "Un-tone-mapped", "--output-colorspace", "ACEScg"}), 2, "not both"},
+      {apply({"--tone", "global"}), 2, "--tone: 'global'"},
+      {apply({"--tone", "local", "--contrast", "0.5"}), 2, "--contrast: '0.5'"},
+      {apply({"--contrast", "4"}), 2, "of the tone map"},
+      {apply({"--tone", "none", "--peak", "200"}), 2, "of the tone map"},
+      {apply({"--tone", "local", "--peak", "0"}), 2, "--peak: '0'"},
+      {apply({"--tone", "local", "--night-range", "2"}), 2, "--night-range: '2'"},
+      {apply({"--tone", "local", "--night-exponent", "nan"}), 2, "--night-exponent: 'nan'"},
+      {apply({"--tone", "local", "--display-range", "3,1"}), 2, "--display-range: '3,1'"},
+      {apply({"--tone", "local", "--display-range", "3"}), 2, "--display-range: '3'"},
+      {apply({"--icc", "NONE"}), 6, "cannot be read"},
+      {apply({"--icc", "TEXT"}), 6, "no ICC profile"},
+      {apply({"--icc", "FOLDER"}), 6, ""},
+      {apply({"--icc", "TEXT", "--intent", "relativ"}), 2, "did you mean relative?"},
+      {apply({"--icc", "TEXT", "--display", "Raw"}), 2, "not both"},
+      {apply({"--intent", "relative"}), 2, "--icc, which is missing"},
+      {apply({"--quality", "101"}), 2, "--quality: '101'"},
   };
   return rows;
 }
@@ -102,7 +123,7 @@ class Faults : public ::testing::Test {
     for (std::string& a : arguments) {
       if (a == "OUT") a = "OUT.exr";
       for (const char* name :
-           {"IN", "OUT.exr", "TEXT", "EMPTY", "CUT", "NONE", "FOLDER", "FOLDER/none/out.exr", "out.jpg"})
+           {"IN", "OUT.exr", "TEXT", "EMPTY", "CUT", "NONE", "FOLDER", "FOLDER/none/out.exr", "out.gif"})
         if (a == name) {
           a = folder_ + "/" + a;
           break;

@@ -133,5 +133,61 @@ TEST(ForeignFormats, types_that_the_output_cannot_hold_are_refused) {
   EXPECT_THROW(run_operator(temporary("in.png"), temporary("out.exr"), 1, request), Error);
 }
 
+TEST(ForeignFormats, jpeg_holds_the_colours_and_what_was_done) {
+  test::TestPart part;
+  part.channels = {{"A", PixelType::half}, {"B", PixelType::half}, {"G", PixelType::half}, {"R", PixelType::half}};
+  part.data = {-3, 5, 61, 69};
+  part.finite = true;
+  test::write_exr(temporary("in.exr"), {part});
+  ImageRequest request;
+  request.jpeg_quality = 100;
+  const ImageLayout layout = run_operator(temporary("in.exr"), temporary("out.jpg"), 0.5, request);
+  ImageRequest png;
+  png.type = PixelType::uint8;
+  run_operator(temporary("in.exr"), temporary("out.png"), 0.5, png);
+  EXPECT_EQ(layout.outputs.front().picture.channels.size(), 3u);
+  EXPECT_EQ(layout.output_space.name, "sRGB - Texture");
+  const auto in = OIIO::ImageInput::open(temporary("out.jpg"));
+  ASSERT_TRUE(in);
+  EXPECT_EQ(in->spec().width, 64);
+  EXPECT_EQ(in->spec().nchannels, 3);
+  EXPECT_NE(in->spec().get_string_attribute("ImageDescription").find("scotopic:adaptation=0.5"), std::string::npos);
+  EXPECT_EQ(in->spec().get_string_attribute("jpeg:subsampling"), "4:4:4");
+}
+
+TEST(ForeignFormats, jpeg_has_no_alpha_so_colour_is_what_alpha_leaves_of_it) {
+  const std::vector<std::uint8_t> source = write<std::uint8_t>(temporary("in.png"), 4, OIIO::TypeDesc::UINT8);
+  ImageRequest request;
+  request.jpeg_quality = 100;
+  const ImageLayout layout = run_operator(temporary("in.png"), temporary("out.jpg"), 10, request);
+  ASSERT_EQ(layout.notes.size(), 1u);
+  EXPECT_NE(layout.notes[0].find("1 other channels are not written"), std::string::npos) << layout.notes[0];
+  const std::vector<std::uint8_t> got = read<std::uint8_t>(temporary("out.jpg"));
+  ASSERT_EQ(got.size(), 50u * 40u * 3u);
+  double sum = 0, wanted = 0;
+  for (std::size_t i = 0; i < 50 * 40; ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      sum += got[3 * i + c];
+      wanted += source[4 * i + c] * (source[4 * i + 3] / 255.0);
+    }
+  EXPECT_NEAR(sum / wanted, 1.0, 0.01);
+}
+
+TEST(ForeignFormats, what_a_display_is_sent_is_whole_numbers_in_tiff) {
+  test::TestPart part;
+  part.channels = {{"B", PixelType::half}, {"G", PixelType::half}, {"R", PixelType::half}};
+  part.finite = true;
+  test::write_exr(temporary("in.exr"), {part});
+  ImageRequest request;
+  request.view = "sRGB - Display/Un-tone-mapped";
+  run_operator(temporary("in.exr"), temporary("view.tif"), 10, request);
+  ImageRequest space;
+  space.output_colourspace = "sRGB - Texture";
+  space.type = PixelType::uint16;
+  run_operator(temporary("in.exr"), temporary("space.tif"), 10, space);
+  EXPECT_EQ(read<std::uint16_t>(temporary("view.tif")), read<std::uint16_t>(temporary("space.tif")));
+  EXPECT_EQ(OIIO::ImageInput::open(temporary("view.tif"))->spec().format, OIIO::TypeDesc::UINT16);
+}
+
 }  // namespace
 }  // namespace scotopic

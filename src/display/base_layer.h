@@ -1,0 +1,21 @@
+// What the base layer is made with; for the files of this room alone.
+#pragma once
+
+#include "acuity/filter.h"
+#include "display/display.h"
+#include "display/gamut_light.h"
+
+namespace scotopic {
+
+struct BaseLayer::Plan {
+  explicit Plan(const DisplayParameters& parameters);
+
+  /// Fills tile.r with the base layer, in decades over La (NaN where the pixel is no number); g and b are
+  /// lost.
+  void decades(const AcuityWindow& window, const AcuityTile& tile, const ParallelFor& parallel_for) const;
+
+  GamutLight light;
+  AcuityFilter filter;
+};
+
+}  // namespace scotopic
