@@ -2,6 +2,7 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -67,6 +68,16 @@ void set_stamps(OIIO::ImageSpec& spec, const std::string& format, const std::vec
   spec.attribute("ImageDescription", description);
 }
 
+/// Whether OpenImageIO will write Exif tags: of sRGB it does.
+bool has_exif(const OIIO::ImageSpec& spec) {
+  const auto is_exif = [](const OIIO::ParamValue& p) {
+    return OIIO::Strutil::starts_with(p.name(), "Exif:") || p.name() == "FNumber" ||
+           p.name() == "ExposureTime";
+  };
+  return spec.get_string_attribute("oiio:ColorSpace") == "sRGB" ||
+         std::any_of(spec.extra_attribs.begin(), spec.extra_attribs.end(), is_exif);
+}
+
 class OiioSink : public PixelSink {
  public:
   OiioSink(std::string format, OutputFile& file, PixelSource& source,
@@ -75,9 +86,11 @@ class OiioSink : public PixelSink {
     for (const OutputPicture& picture : pictures_) specs_.push_back(spec_of(source, picture));
     output_ = OIIO::ImageOutput::create(format_);
     if (!output_) fail("OpenImageIO here has no " + format_ + " writer");
-    // OpenImageIO appends pages only to what it can open by name.
-    name_ = pictures_.size() > 1 ? file_.open_name() : file_.path();
-    if (pictures_.size() == 1) output_->set_ioproxy(&proxy_);
+    // OpenImageIO appends pages only to what it can open by name; and where it writes Exif tags into a TIFF
+    // it reads the file's directory back, which its streams for writing cannot: the file would be none.
+    const bool by_name = pictures_.size() > 1 || (format_ == "tiff" && has_exif(specs_.front()));
+    name_ = by_name ? file_.open_name() : file_.path();
+    if (!by_name) output_->set_ioproxy(&proxy_);
   }
   ~OiioSink() override {
     if (output_) output_->close();

@@ -185,8 +185,39 @@ TEST(ForeignFormats, what_a_display_is_sent_is_whole_numbers_in_tiff) {
   space.output_colourspace = "sRGB - Texture";
   space.type = PixelType::uint16;
   run_operator(temporary("in.exr"), temporary("space.tif"), 10, space);
-  EXPECT_EQ(read<std::uint16_t>(temporary("view.tif")), read<std::uint16_t>(temporary("space.tif")));
-  EXPECT_EQ(OIIO::ImageInput::open(temporary("view.tif"))->spec().format, OIIO::TypeDesc::UINT16);
+  const std::vector<std::uint16_t> view = read<std::uint16_t>(temporary("view.tif"));
+  EXPECT_EQ(view.size(), 37u * 50u * 3u);
+  EXPECT_EQ(view, read<std::uint16_t>(temporary("space.tif")));
+  const auto in = OIIO::ImageInput::open(temporary("view.tif"));
+  ASSERT_TRUE(in);
+  EXPECT_EQ(in->spec().format, OIIO::TypeDesc::UINT16);
+}
+
+TEST(ForeignFormats, a_tiff_that_says_srgb_or_carries_exif_can_be_read) {
+  // Once it could not: Exif tags went into a stream that OpenImageIO cannot read back.
+  test::TestPart part;
+  part.channels = {{"B", PixelType::half}, {"G", PixelType::half}, {"R", PixelType::half}};
+  part.finite = true;
+  test::write_exr(temporary("in.exr"), {part});
+  ImageRequest request;
+  request.type = PixelType::uint8;
+  request.output_colourspace = "sRGB - Texture";
+  run_operator(temporary("in.exr"), temporary("out.tif"), 10, request);
+  EXPECT_EQ(read<std::uint8_t>(temporary("out.tif")).size(), 37u * 50u * 3u);
+  {
+    const auto camera = OIIO::ImageOutput::create(temporary("camera.jpg"));
+    OIIO::ImageSpec spec(64, 32, 3, OIIO::TypeDesc::UINT8);
+    spec.attribute("FNumber", 2.8f);
+    spec.attribute("Exif:FocalLengthIn35mmFilm", 35);
+    ASSERT_TRUE(camera->open(temporary("camera.jpg"), spec));
+    camera->write_image(OIIO::TypeDesc::UINT8, std::vector<std::uint8_t>(64 * 32 * 3, 100).data());
+    camera->close();
+  }
+  run_operator(temporary("camera.jpg"), temporary("camera.tif"), 10);
+  EXPECT_EQ(read<std::uint8_t>(temporary("camera.tif")).size(), 64u * 32u * 3u);
+  const auto camera = OIIO::ImageInput::open(temporary("camera.tif"));
+  ASSERT_TRUE(camera);
+  EXPECT_NEAR(camera->spec().get_float_attribute("FNumber"), 2.8f, 1e-6f);
 }
 
 }  // namespace

@@ -59,7 +59,9 @@ std::string printer_of_shares(cmsColorSpaceSignature space = cmsSigRgbData) {
           return 1;
         },
         &share, 0);
+    cmsPipelineInsertStage(table, cmsAT_END, cmsStageAllocToneCurves(nullptr, 3, nullptr));
     cmsPipelineInsertStage(table, cmsAT_END, clut);
+    cmsPipelineInsertStage(table, cmsAT_END, cmsStageAllocToneCurves(nullptr, channels, nullptr));
     EXPECT_TRUE(cmsWriteTag(profile, tables[i], table));
     cmsPipelineFree(table);
   }
@@ -98,7 +100,8 @@ TEST(IccProfile, black_is_black_and_what_is_no_light_is_some_value_of_the_device
        {RenderingIntent::relative, RenderingIntent::absolute, RenderingIntent::perceptual})
     for (const std::string& file : {wide_gamut(), printer_of_shares()}) {
       const IccProfile profile(file, intent);
-      for (const float x : device(profile, {0, 0, 0})) EXPECT_NEAR(x, 0, 5e-3);
+      for (const float x : device(profile, {0, 0, 0}))
+        EXPECT_NEAR(x, 0, intent == RenderingIntent::perceptual ? 0.035 : 5e-3);  // ICC.1 v4: black of L* 3.1
       const float nan = std::numeric_limits<float>::quiet_NaN(),
                   infinite = std::numeric_limits<float>::infinity();
       for (const Vec3<float>& odd : {Vec3<float>{nan, 0.2f, 0.2f},
