@@ -6,13 +6,14 @@ and the properties, stopping at the first that fails. Prints the score and the s
 
   scripts/mutation.py [--work DIR] [--jobs N] [--only TEXT] [--check]
 
-  --only TEXT  only faults whose line holds TEXT      --check  only look whether every fault still applies
+  --only REGEX only faults whose line matches         --check  only look whether every fault still applies
   --work DIR   goes on where a run in DIR stopped: what was noticed once is not tried again
 """
 import argparse
 import io
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -118,7 +119,7 @@ def main():
     options.add_argument("--only", default="")
     options.add_argument("--check", action="store_true")
     options = options.parse_args()
-    mutants = [m for m in read_mutants() if options.only in m[3]]
+    mutants = [m for m in read_mutants() if re.search(options.only, m[3])]
     stale = [m for m in mutants if (ROOT / m[0]).read_text().count(m[1]) != 1]
     for mutant in stale:
         print("does not apply:", mutant[3])
