@@ -4,7 +4,7 @@
 Copies the last commit, applies one fault after the other, builds, and runs the tests of kernel, adaptation and appearance
 and the properties, stopping at the first that fails. Prints the score and the survivors; exits 1 below 95 %.
 
-  scripts/mutation.py [--work DIR] [--jobs N] [--only TEXT] [--check]
+  scripts/mutation.py [--work DIR] [--jobs N] [--only REGEX] [--check]
 
   --only REGEX only faults whose line matches         --check  only look whether every fault still applies
   --work DIR   goes on where a run in DIR stopped: what was noticed once is not tried again

@@ -22,5 +22,6 @@ set xrange [-17:6]
 set yrange [1e-7:2]
 functions = "gain_double gain_float mesopic_coefficient mesopic_share_float mesopic_share_dual pupil_diameter trolands \
 chroma_factor_double chroma_factor_float acuity_cutoff lab_lightness acuity_lab_f_float acuity_lab_f_inverse_float"
-plot for [f in functions] "docs/figures/ulp_octaves.csv" using (strcol(1) eq f ? $2 : NaN):($3 > 0 ? $3 : 1e-8) \
-     title f noenhanced
+plot for [i=1:words(functions)] "docs/figures/ulp_octaves.csv" \
+     using (strcol(1) eq word(functions, i) ? $2 : NaN):($3 > 0 ? $3 : 1e-8) title word(functions, i) noenhanced \
+     linecolor 1 + (i - 1) % 8 dashtype 1 + (i - 1) / 8 linewidth 2

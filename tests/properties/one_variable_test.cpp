@@ -146,7 +146,7 @@ const Function functions[] = {
     {"lab_lightness", -1e30f, 1e30f, 5,
      [](float t) { return lab_from_xyz({0, static_cast<double>(t), 0}).lightness / 116; },
      [](Extended t) { return exact_lab_f(t) - 16.0L / 116; }, ulp_at_1},
-    {"acuity_lab_f_float", 1e-3f, 1e10f, 32, [](float t) -> double { return lab_f_float(t); }, exact_lab_f, ulp_of_float},
+    {"acuity_lab_f_float", 1e-3f, 1e10f, 9, [](float t) -> double { return lab_f_float(t); }, exact_lab_f, ulp_of_float},
     {"acuity_lab_f_inverse_float", 0.21f, 2e3f, 2, [](float f) -> double { return lab_f_inverse_float(f); },
      [](Extended f) { return f > 6.0L / 29 ? f * f * f : (f - 4.0L / 29) * 108 / 841; }, ulp_of_float},
 };
