@@ -168,6 +168,26 @@ def models(studio):
     return tiled([pictures[:2], pictures[2:]])
 
 
+def thesis(studio):
+    chart = studio.chart()
+    lit = '--illuminant d65 --white-luminance 0.0556 --output-colorspace scene_linear --adaptation .01 --model '
+    ways = [lit + 'filament2021 --effects none', lit + 'filament2021', lit + 'safko2019 --safko-scale 1e6', lit + 'safko2019 --safko-scale 1']
+    return tiled([[shown(studio.seen(chart, way), .5) for way in ways[:2]], [shown(studio.seen(chart, way), .5) for way in ways[2:]]])
+
+
+def display(studio):
+    """What the program itself sends to a display: 8 bits, no exposure of ours."""
+    night = night_scene(studio)
+    plain = shown(studio.seen(night, '--adaptation .05'), 1.2)
+    sent = []
+    for options in ('', '--model kirk2011'):
+        name = studio.file('.png')
+        subprocess.run([studio.program, 'apply', night, '-o', name, '-q', '-d', 'uint8', '--adaptation', '.05', '--display',
+                        'Un-tone-mapped', *options.split()], check=True)
+        sent.append(numpy.round(255 * read(name)[..., :3]).astype(numpy.uint8))
+    return tiled([[plain, *sent]])
+
+
 def effects(studio):
     night = night_scene(studio)
     ways = ['--adaptation 1000 --white-luminance .0556', *(f'--adaptation .01 --effects {e}' for e in
@@ -177,7 +197,8 @@ def effects(studio):
 
 
 PICTURES = {'chart_lights.png': chart_lights, 'chart_ladder.png': chart_ladder, 'night_ladder.jpg': night_ladder,
-            'lamps.jpg': lamps, 'silhouette.jpg': silhouette, 'models.jpg': models, 'effects.jpg': effects}
+            'lamps.jpg': lamps, 'silhouette.jpg': silhouette, 'models.jpg': models, 'effects.jpg': effects,
+            'thesis.png': thesis, 'display.jpg': display}
 
 
 def keep(name, pixels):
