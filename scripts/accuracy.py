@@ -2,7 +2,8 @@
 """Measures what accuracy costs and writes it into docs/accuracy.md, README.md and docs/images/accuracy.svg.
 
 accuracy.py measure BUILD FOLDER [ROUNDS]
-    BUILD is a Release build with -DSCOTOPIC_BUILD_BENCH=ON. Let the machine be idle: the load is kept with the figures.
+    BUILD is a Release build with -DSCOTOPIC_BUILD_BENCH=ON (the two benchmarks it runs need no package beyond those of
+    scripts/install_packages.sh). Let the machine be idle: the load is kept with the figures.
 accuracy.py write FOLDER [OTHER...]
     The tables of one run; of the others, made on other machines, only the one by vector instructions.
 """
@@ -20,9 +21,11 @@ INSTRUCTIONS = {
     "float": "operator, float",
     "double": "operator, double inside",
     "half": "operator, float, half planes in and out",
-    "photopic": "operator, every pixel photopic",
-    "shift": "shift alone, no projection, luminance or chroma",
+    "photopic": "operator, adapted to 10 cd/m²",
+    "lit": "operator, adapted to .01 cd/m², every pixel beyond 5",
+    "shift": "shift and projection alone",
     "kernel": "RGB to LMSR, kernel, back to RGB",
+    "general": "operator, float, by code that asks which stages are on (global weight)",
 }
 
 
@@ -99,8 +102,12 @@ def ratios(times, bench):
     best = bench[0]["target"]
     cell = {t["what"]: t["ns"] for t in bench if t["target"] == best}
     op = "operator"
-    rows = [
-        ["RGB→LMSR→kernel→RGB, float, against the same in scalar double",
+    # Runs of before 2026-11-25 have no naive kernel.
+    naive = [[f"RGB→LMSR→kernel→RGB, float, against the formula as first written down, in double, with `{how}`",
+              f"{cell[f'kernel, naive double, {name}'] / cell['kernel, float']:.1f} × faster"]
+             for name, how in [("pow", "pow(x, -0.5)"), ("sqrt", "1/sqrt(x)")] if f"kernel, naive double, {name}" in cell]
+    rows = naive + [
+        ["RGB→LMSR→kernel→RGB, float, against the reference in scalar double",
          f"{cell['kernel, scalar double'] / cell['kernel, float']:.1f} × faster"],
         ["operator, float, against the same in scalar double",
          f"{cell['operator, scalar double'] / cell['operator, float']:.0f} × faster"],

@@ -11,108 +11,11 @@
 #include <hwy/highway.h>
 
 #include "appearance/batch_constants.h"
-#include "appearance/batch_layouts-inl.h"
 #include "appearance/batch_pixels-inl.h"
+#include "appearance/batch_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace scotopic::HWY_NAMESPACE {
-
-// Pixels of R, G, B, A next to each other.
-struct RgbaRows {
-  float* rgba;
-  std::size_t count;
-};
-
-// Pixels are float in memory; D may be double.
-template <class D>
-using Narrow = hn::Rebind<float, D>;
-
-template <class D>
-HWY_INLINE hn::Vec<D> widened(D d, hn::Vec<Narrow<D>> v) {
-  if constexpr (sizeof(hn::TFromD<D>) == sizeof(float))
-    return v;
-  else
-    return hn::PromoteTo(d, v);
-}
-template <class D>
-HWY_INLINE hn::Vec<Narrow<D>> narrowed(D, hn::Vec<D> v) {
-  if constexpr (sizeof(hn::TFromD<D>) == sizeof(float))
-    return v;
-  else
-    return hn::DemoteTo(Narrow<D>(), v);
-}
-template <class D>
-HWY_INLINE hn::Vec<D> load(D d, const float* from) {
-  return widened(d, hn::LoadU(Narrow<D>(), from));
-}
-template <class D>
-HWY_INLINE void store(D d, hn::Vec<D> v, float* to) {
-  hn::StoreU(narrowed(d, v), Narrow<D>(), to);
-}
-
-// Loads pixels; `alpha` is for the layout that has it. Without receptors, the stages being the `usual`.
-template <bool usual, class D>
-HWY_INLINE PixelVector<hn::Vec<D>> load_pixels(D d, const PixelRows& rows, std::size_t at,
-                                               hn::Vec<Narrow<D>>&) {
-  const auto zero = hn::Zero(d);
-  const Triple<hn::Vec<D>> rgb = {load(d, rows.r + at), load(d, rows.g + at), load(d, rows.b + at)};
-  if constexpr (usual) return {rgb, {zero, zero, zero}, zero, false, false};
-  const auto given = [&](const float* plane) { return plane ? load(d, plane + at) : zero; };
-  return {rgb,
-          {given(rows.cone_l), given(rows.cone_m), given(rows.cone_s)},
-          given(rows.rod),
-          rows.cone_l != nullptr,
-          rows.rod != nullptr};
-}
-template <bool, class D>
-HWY_INLINE PixelVector<hn::Vec<D>> load_pixels(D d, const RgbaRows& rows, std::size_t at,
-                                               hn::Vec<Narrow<D>>& alpha) {
-  auto r = alpha, g = alpha, b = alpha;
-  hn::LoadInterleaved4(Narrow<D>(), rows.rgba + 4 * at, r, g, b, alpha);
-  const auto zero = hn::Zero(d);
-  return {{widened(d, r), widened(d, g), widened(d, b)}, {zero, zero, zero}, zero, false, false};
-}
-
-template <class D>
-HWY_INLINE void store_pixels(D d, const Triple<hn::Vec<D>>& rgb, const PixelRows& rows, std::size_t at,
-                             hn::Vec<Narrow<D>>) {
-  store(d, rgb.x, rows.r + at);
-  store(d, rgb.y, rows.g + at);
-  store(d, rgb.z, rows.b + at);
-}
-template <class D>
-HWY_INLINE void store_pixels(D d, const Triple<hn::Vec<D>>& rgb, const RgbaRows& rows, std::size_t at,
-                             hn::Vec<Narrow<D>> alpha) {
-  hn::StoreInterleaved4(narrowed(d, rgb.x), narrowed(d, rgb.y), narrowed(d, rgb.z), alpha, Narrow<D>(),
-                        rows.rgba + 4 * at);
-}
-
-// A vector's worth of results, and a bit per lane.
-struct Lanes {
-  HWY_ALIGN float r[HWY_MAX_BYTES / sizeof(float)], g[HWY_MAX_BYTES / sizeof(float)],
-      b[HWY_MAX_BYTES / sizeof(float)];
-
-  template <class D>
-  void set(D d, const Triple<hn::Vec<D>>& rgb) {
-    store(d, rgb.x, r), store(d, rgb.y, g), store(d, rgb.z, b);
-  }
-  void copy(std::size_t lane, const PixelRows& rows, std::size_t to) const {
-    rows.r[to] = r[lane], rows.g[to] = g[lane], rows.b[to] = b[lane];
-  }
-  void copy(std::size_t lane, const RgbaRows& rows, std::size_t to) const {
-    float* const pixel = rows.rgba + 4 * to;
-    pixel[0] = r[lane], pixel[1] = g[lane], pixel[2] = b[lane];
-  }
-};
-
-template <class D>
-std::uint64_t lane_bits(D d, hn::Mask<D> mask) {
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(d, mask, bytes);
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, bytes, sizeof bits);
-  return bits;
-}
 
 // A byte of 0 or 1 per bit, eight at a time.
 HWY_INLINE void mark(std::uint8_t* touched, std::size_t lanes, std::uint64_t bits) {
@@ -124,119 +27,150 @@ HWY_INLINE void mark(std::uint8_t* touched, std::size_t lanes, std::uint64_t bit
   }
 }
 
-// The constants in the type that pixels are computed in, and in double for those that need it.
-template <typename T, bool usual_stages>
-struct Operators {
-  static constexpr bool usual = usual_stages;
-  PixelOperator<hn::ScalableTag<T>, usual> main;
-  PixelOperator<hn::ScalableTag<double>> exact;
-};
+template <class D>
+std::uint64_t lane_bits(D d, hn::Mask<D> mask) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(d, mask, bytes);
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, bytes, sizeof bits);
+  return bits;
+}
 
 // Computes in double the pixels at `at` that `bits` names; `lanes` pixels may be read.
 template <class Rows>
-HWY_NOINLINE void apply_exactly(const PixelOperator<hn::ScalableTag<double>>& op, const Rows& rows,
-                                std::size_t at, std::size_t lanes, std::uint64_t bits) {
-  const hn::ScalableTag<double> d;
-  Lanes out;
+void apply_exactly(const WideConstants<double>& exact, const Rows& rows, std::size_t at, std::size_t lanes,
+                   std::uint64_t bits) {
+  using D = Tag<double>;
+  const D d;
+  const PixelOperator<D> op(d, exact);
+  Results<Element<Rows>> out;
   for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
-    auto alpha = hn::Zero(Narrow<hn::ScalableTag<double>>());
-    auto p = load_pixels<false>(d, rows, at + i, alpha);
-    auto ignored = hn::MaskFromVec(hn::Zero(d));
-    op(p, ignored);
-    out.set(d, p.rgb);
+    auto alpha = hn::Zero(hn::Rebind<Element<Rows>, D>());
+    const auto p = load_pixels<Receptors::maybe>(d, rows, at + i, alpha);
+    typename PixelOperator<D>::Seen seen;
+    if (!op(p, seen)) continue;
+    out.set(d, seen.rgb);
+    const std::uint64_t here = bits >> i & lane_bits(d, seen.active);
     for (std::size_t k = 0; k < hn::Lanes(d); ++k)
-      if (bits >> (i + k) & 1u) out.copy(k, rows, at + i + k);
+      if (here >> k & 1u) out.copy(k, rows, at + i + k);
   }
 }
 
-// One vector of pixels at `at`. Pixels that are not touched keep their bits: they are not stored.
-template <typename T, bool usual, class Rows>
-HWY_INLINE void apply_vector(const Operators<T, usual>& op, const Rows& rows, std::size_t at,
-                             std::uint8_t* touched) {
-  using D = hn::ScalableTag<T>;
+// Stores the lanes that `active` names, or computes them again where `doubtful`.
+template <class Rows>
+HWY_NOINLINE void store_some(const WideConstants<double>& exact, const Results<Element<Rows>>& out, const Rows& rows,
+                             std::size_t at, std::size_t lanes, std::uint64_t active, std::uint64_t doubtful) {
+  if (doubtful) apply_exactly(exact, rows, at, lanes, doubtful);
+  for (std::size_t i = 0; i < lanes; ++i)
+    if ((active & ~doubtful) >> i & 1u) out.copy(i, rows, at + i);
+}
+
+// One vector of pixels at `at`. Pixels that are not touched keep their bits.
+template <StageSet stages, Receptors receptors, class D, class Rows>
+HWY_INLINE void apply_vector(const PixelOperator<D, stages, receptors>& op, const WideConstants<double>& exact,
+                             const Rows& rows, std::size_t at, std::uint8_t* touched) {
+  using Operator = PixelOperator<D, stages, receptors>;
   const D d;
   const std::size_t lanes = hn::Lanes(d);
-  auto alpha = hn::Zero(Narrow<D>());
-  auto p = load_pixels<usual>(d, rows, at, alpha);
-  auto doubtful = hn::MaskFromVec(hn::Zero(d));
-  const auto active = op.main(p, doubtful);
-  const std::uint64_t active_bits = lane_bits(d, active);
-  if (touched) mark(touched + at, lanes, active_bits);
-  if (active_bits == 0) return;
-  const std::uint64_t exact_bits = std::is_same_v<T, double> ? 0 : lane_bits(d, doubtful);
-  if (hn::AllTrue(d, active) && exact_bits == 0) {
-    store_pixels(d, p.rgb, rows, at, alpha);
+  auto alpha = hn::Zero(hn::Rebind<Element<Rows>, D>());
+  const auto p = load_pixels<receptors>(d, rows, at, alpha);
+  typename Operator::Seen seen;
+  if (!op(p, seen)) {
+    if (touched) std::memset(touched + at, 0, lanes);
     return;
   }
-  if (exact_bits) apply_exactly(op.exact, rows, at, lanes, exact_bits);
-  Lanes out;
-  out.set(d, p.rgb);
-  for (std::size_t i = 0; i < lanes; ++i)
-    if ((active_bits & ~exact_bits) >> i & 1u) out.copy(i, rows, at + i);
+  auto plain = seen.active;
+  if constexpr (Operator::needs_more_digits) plain = hn::AndNot(seen.doubtful, seen.active);
+  if (HWY_LIKELY(hn::AllTrue(d, plain))) {
+    if (touched) std::memset(touched + at, 1, lanes);
+    store_pixels(d, seen.rgb, rows, at, alpha);
+    return;
+  }
+  const std::uint64_t active = lane_bits(d, seen.active);
+  if (touched) mark(touched + at, lanes, active);
+  if constexpr (std::is_same_v<hn::TFromD<D>, Element<Rows>>) {
+    // Nothing is converted on the way out: what is not touched may be stored as it came.
+    if (hn::AllFalse(d, seen.doubtful)) {
+      store_pixels(d, op.select(seen.active, seen.rgb, p.rgb), rows, at, alpha);
+      return;
+    }
+  }
+  std::uint64_t doubtful = 0;
+  if constexpr (Operator::needs_more_digits) doubtful = lane_bits(d, seen.doubtful);
+  Results<Element<Rows>> out;
+  out.set(d, seen.rgb);
+  store_some(exact, out, rows, at, lanes, active, doubtful);
 }
 
-// The last pixels, fewer than a vector: through a padded copy, by the same instructions.
-template <typename T, bool usual>
-HWY_NOINLINE void apply_tail(const Operators<T, usual>& op, const PixelRows& rows, std::size_t at,
-                             std::uint8_t* touched) {
-  constexpr std::size_t most = HWY_MAX_BYTES / sizeof(float);
-  float copy[7][most] = {};
-  std::uint8_t touched_copy[most] = {};
-  const std::size_t count = rows.count - at;
-  const auto fill = [&](const float* plane, float* to) -> float* {
-    if (!plane) return nullptr;
-    std::copy_n(plane + at, count, to);
-    return to;
-  };
-  const PixelRows padded = {fill(rows.r, copy[0]),      fill(rows.g, copy[1]),
-                            fill(rows.b, copy[2]),      fill(rows.cone_l, copy[3]),
-                            fill(rows.cone_m, copy[4]), fill(rows.cone_s, copy[5]),
-                            fill(rows.rod, copy[6]),    most};
-  apply_vector(op, padded, 0, touched_copy);
-  std::copy_n(copy[0], count, rows.r + at);
-  std::copy_n(copy[1], count, rows.g + at);
-  std::copy_n(copy[2], count, rows.b + at);
+// Fewer pixels than a vector holds: through a padded copy, by the same arithmetic.
+template <typename T, class Rows>
+HWY_NOINLINE void apply_part(const WideConstants<T>& main, const WideConstants<double>& exact, const Rows& rows,
+                             std::size_t at, std::size_t count, std::uint8_t* touched) {
+  Padded<Rows> padded;
+  padded.in(rows, at, count);
+  std::uint8_t touched_copy[most_lanes] = {};
+  const Tag<T> d;
+  apply_vector(PixelOperator<Tag<T>>(d, main), exact, padded.rows, 0, touched_copy);
+  padded.out(rows, at, count);
   if (touched) std::copy_n(touched_copy, count, touched + at);
 }
 
-template <typename T, bool usual>
-HWY_NOINLINE void apply_tail(const Operators<T, usual>& op, const RgbaRows& rows, std::size_t at,
-                             std::uint8_t* touched) {
-  constexpr std::size_t most = HWY_MAX_BYTES / sizeof(float);
-  float copy[4 * most] = {};
-  std::uint8_t touched_copy[most] = {};
-  const std::size_t count = rows.count - at;
-  std::copy_n(rows.rgba + 4 * at, 4 * count, copy);
-  apply_vector(op, RgbaRows{copy, most}, 0, touched_copy);
-  std::copy_n(copy, 4 * count, rows.rgba + 4 * at);
-  if (touched) std::copy_n(touched_copy, count, touched + at);
-}
+// Aligning costs two parts: from so many vectors on it is worth it.
+constexpr std::size_t worth_aligning = 64;
 
-template <bool usual, typename T, class Rows>
-void apply_stages(const BatchConstants<T>& main, const BatchConstants<double>& exact, const Rows& rows,
+template <StageSet stages, Receptors receptors, typename T, class Rows>
+void apply_stages(const WideConstants<T>& main, const WideConstants<double>& exact, const Rows& rows,
                   std::uint8_t* touched) {
-  const Operators<T, usual> op{{hn::ScalableTag<T>(), main}, {hn::ScalableTag<double>(), exact}};
-  const std::size_t lanes = hn::Lanes(hn::ScalableTag<T>());
+  using D = Tag<T>;
+  const PixelOperator<D, stages, receptors> op(D(), main);
+  const std::size_t lanes = hn::Lanes(D());
   std::size_t at = 0;
-  for (; at + lanes <= rows.count; at += lanes) apply_vector(op, rows, at, touched);
-  if (at < rows.count) apply_tail(op, rows, at, touched);
+  if (rows.count >= worth_aligning * lanes) at = before_aligned(rows, lanes);
+  if (at) apply_part(main, exact, rows, 0, at, touched);
+  for (; at + lanes <= rows.count; at += lanes) apply_vector(op, exact, rows, at, touched);
+  if (at < rows.count) apply_part(main, exact, rows, at, rows.count - at, touched);
 }
 
-bool has_receptors(const PixelRows& rows) { return rows.cone_l || rows.rod; }
-bool has_receptors(const RgbaRows&) { return false; }
+// Code for all stages and for any there is for every layout; for the others where it pays for its size: in float, on
+// planes, which are what the image tool works on.
+template <typename T, class Rows>
+void apply_rgb(const WideConstants<T>& main, const WideConstants<double>& exact, const Rows& rows,
+               std::uint8_t* touched) {
+  constexpr Receptors absent = Receptors::absent;
+  constexpr bool is_float = std::is_same_v<T, float>, planes = std::is_same_v<Rows, PixelRows>;
+  const StageSet stages = main.numbers.stages();
+  if (stages == StageSet::all) return apply_stages<StageSet::all, absent>(main, exact, rows, touched);
+  if constexpr (std::is_same_v<Element<Rows>, float>)
+    if (stages == StageSet::kernel) return apply_stages<StageSet::kernel, absent>(main, exact, rows, touched);
+  if constexpr (is_float && planes) {
+    if (stages == StageSet::grey) return apply_stages<StageSet::grey, absent>(main, exact, rows, touched);
+    if (stages == StageSet::shift) return apply_stages<StageSet::shift, absent>(main, exact, rows, touched);
+    if (stages == StageSet::luminance) return apply_stages<StageSet::luminance, absent>(main, exact, rows, touched);
+    if (stages == StageSet::chroma) return apply_stages<StageSet::chroma, absent>(main, exact, rows, touched);
+  }
+  apply_stages<StageSet::any, Receptors::maybe>(main, exact, rows, touched);
+}
 
 template <typename T, class Rows>
-void apply_type(const BatchConstants<T>& main, const BatchConstants<double>& exact, const Rows& rows,
+void apply_type(const WideConstants<T>& main, const WideConstants<double>& exact, const Rows& rows,
                 std::uint8_t* touched) {
-  if (main.usual && !has_receptors(rows))
-    apply_stages<true>(main, exact, rows, touched);
-  else
-    apply_stages<false>(main, exact, rows, touched);
+  if (!main.numbers.safko && !(main.numbers.adaptation < T(photopic_luminance))) {
+    if (touched) std::memset(touched, 0, rows.count);
+    return;
+  }
+  if constexpr (std::is_same_v<Rows, PixelRows>) {
+    const bool cones = rows.cone_l, rod = rows.rod;
+    if constexpr (std::is_same_v<T, float>)
+      if (cones && rod && main.numbers.stages() == StageSet::all)
+        return apply_stages<StageSet::all, Receptors::given>(main, exact, rows, touched);
+    if (cones || rod) return apply_stages<StageSet::any, Receptors::maybe>(main, exact, rows, touched);
+  }
+  apply_rgb(main, exact, rows, touched);
 }
 
 // `main` is null for double inside.
 template <class Rows>
-void apply_rows(const BatchConstants<float>* main, const BatchConstants<double>& exact, const Rows& rows,
+void apply_rows(const WideConstants<float>* main, const WideConstants<double>& exact, const Rows& rows,
                 std::uint8_t* touched) {
   if (main)
     apply_type(*main, exact, rows, touched);
@@ -245,30 +179,21 @@ void apply_rows(const BatchConstants<float>* main, const BatchConstants<double>&
 }
 
 // All ways in.
-void apply_planes(const BatchConstants<float>* main, const BatchConstants<double>& exact,
-                  const PixelRows& rows, std::uint8_t* touched) {
+void apply_planes(const WideConstants<float>* main, const WideConstants<double>& exact, const PixelRows& rows,
+                  std::uint8_t* touched) {
   apply_rows(main, exact, rows, touched);
 }
-void apply_rgba(const BatchConstants<float>* main, const BatchConstants<double>& exact, float* rgba,
-                std::size_t count, std::uint8_t* touched) {
-  apply_rows(main, exact, RgbaRows{rgba, count}, touched);
+void apply_half_planes(const WideConstants<float>* main, const WideConstants<double>& exact, const HalfRows& rows,
+                       std::uint8_t* touched) {
+  apply_rows(main, exact, rows, touched);
 }
-
-template <class Layout>
-void apply_layout(const BatchConstants<float>* main, const BatchConstants<double>& exact,
-                  const Layout& layout, std::size_t count, std::uint8_t* touched) {
-  apply_in_blocks(layout, count, touched, [&](const PixelRows& block, std::uint8_t* touched_here) {
-    apply_planes(main, exact, block, touched_here);
-  });
+void apply_rgba(const WideConstants<float>* main, const WideConstants<double>& exact, float* rgba, std::size_t count,
+                std::uint8_t* touched) {
+  apply_rows(main, exact, RgbaRows<float>{rgba, count}, touched);
 }
-
-void apply_half_planes(const BatchConstants<float>* main, const BatchConstants<double>& exact,
-                       const HalfRows& rows, std::uint8_t* touched) {
-  apply_layout(main, exact, HalfPlanes{rows.r, rows.g, rows.b}, rows.count, touched);
-}
-void apply_half_rgba(const BatchConstants<float>* main, const BatchConstants<double>& exact,
-                     std::uint16_t* rgba, std::size_t count, std::uint8_t* touched) {
-  apply_layout(main, exact, HalfRgba{rgba}, count, touched);
+void apply_half_rgba(const WideConstants<float>* main, const WideConstants<double>& exact, std::uint16_t* rgba,
+                     std::size_t count, std::uint8_t* touched) {
+  apply_rows(main, exact, RgbaRows<std::uint16_t>{rgba, count}, touched);
 }
 
 }  // namespace scotopic::HWY_NAMESPACE
@@ -283,15 +208,17 @@ HWY_EXPORT(apply_rgba);
 HWY_EXPORT(apply_half_rgba);
 
 struct AppearanceBatch::Constants {
-  BatchConstants<double> exact;
-  std::optional<BatchConstants<float>> single;
+  explicit Constants(const OperatorConstants& c) : exact(c) {}
 
-  const BatchConstants<float>* main() const { return single ? &*single : nullptr; }
+  WideConstants<double> exact;
+  std::optional<WideConstants<float>> single;
+
+  const WideConstants<float>* main() const { return single ? &*single : nullptr; }
 };
 
 AppearanceBatch::AppearanceBatch(const AppearanceParameters& parameters, Precision precision) {
   const OperatorConstants constants(parameters);
-  auto made = std::make_unique<Constants>(Constants{BatchConstants<double>(constants), {}});
+  auto made = std::make_unique<Constants>(constants);
   if (precision == Precision::single) made->single.emplace(constants);
   constants_ = std::move(made);
 }

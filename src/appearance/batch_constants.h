@@ -1,8 +1,13 @@
 // OperatorConstants as the vector code wants them: products worked out in double, then rounded once.
 #pragma once
 
+#include <hwy/aligned_allocator.h>
+
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "adaptation/mesopic.h"
 #include "appearance/constants.h"
@@ -26,6 +31,18 @@ struct BatchPrecision<double> {
   static constexpr std::size_t log_terms = 12;
 };
 
+/// Stages that code without branches is compiled for; all with local weight, linear rods, and a projection into the
+/// gamut of the RGB that comes in where there is a shift. `any` asks the constants instead.
+enum class StageSet {
+  any,
+  all,        ///< shift, mesopic luminance, chroma: what a look has by default
+  grey,       ///< shift, photopic luminance, chroma: what the planner leaves of it where S/P ratios are white's
+  shift,      ///< one of them alone
+  luminance,
+  chroma,
+  kernel      ///< safko2019
+};
+
 template <typename T>
 struct BatchConstants {
   static constexpr std::size_t mesopic_terms = BatchPrecision<T>::mesopic_degree + 1;
@@ -33,9 +50,10 @@ struct BatchConstants {
 
   explicit BatchConstants(const OperatorConstants& c);
 
+  StageSet stages() const noexcept;
+
   // What is on.
   bool safko, local, mesopic_policy, quadratic_rods, do_shift, project, gamut_is_rgb, do_luminance, do_chroma;
-  bool usual;  // the stages of a look with every default, for which there is code without branches
 
   // Weight.
   T unit, adaptation, scotopic_limit, photopic_limit;
@@ -67,6 +85,18 @@ struct BatchConstants {
 };
 
 template <typename T>
+StageSet BatchConstants<T>::stages() const noexcept {
+  if (quadratic_rods) return StageSet::any;
+  if (safko) return StageSet::kernel;
+  if (!local || (do_shift && !gamut_is_rgb)) return StageSet::any;
+  if (do_shift && do_luminance && do_chroma) return mesopic_policy ? StageSet::all : StageSet::grey;
+  if (do_shift && !do_luminance && !do_chroma) return StageSet::shift;
+  if (!do_shift && do_luminance && mesopic_policy && !do_chroma) return StageSet::luminance;
+  if (!do_shift && !do_luminance && do_chroma) return StageSet::chroma;
+  return StageSet::any;
+}
+
+template <typename T>
 Vec3<T> rounded(const Vec3<double>& v) {
   return {static_cast<T>(v[0]), static_cast<T>(v[1]), static_cast<T>(v[2])};
 }
@@ -84,7 +114,6 @@ BatchConstants<T>::BatchConstants(const OperatorConstants& c) {
   gamut_is_rgb = c.gamut_is_rgb;
   do_luminance = c.luminance > 0;
   do_chroma = c.chroma > 0;
-  usual = !safko && local && mesopic_policy && !quadratic_rods && do_shift && gamut_is_rgb && do_luminance && do_chroma;
 
   unit = t(p.white_luminance);
   adaptation = t(p.adaptation);
@@ -134,5 +163,35 @@ BatchConstants<T>::BatchConstants(const OperatorConstants& c) {
   chroma_at_5 = t((5 + chroma_half_luminance) / 5);
   chroma_half = t(chroma_half_luminance);
 }
+
+/// BatchConstants with each number as often as the widest vector has room for: a constant is then an operand in memory,
+/// and takes no instruction of its own. (Too many for registers, they would be spread again for each use.)
+template <typename T>
+class WideConstants {
+ public:
+  static constexpr std::size_t lanes = 64 / sizeof(T);
+
+  explicit WideConstants(const OperatorConstants& c)
+      : numbers(c), wide_(hwy::AllocateAligned<T>(count * lanes)) {
+    for (std::size_t i = 0; i < count; ++i) {
+      T number{};
+      std::memcpy(&number, reinterpret_cast<const std::byte*>(&numbers) + i * sizeof(T), sizeof number);
+      std::fill_n(wide_.get() + i * lanes, lanes, number);
+    }
+  }
+  WideConstants(WideConstants&&) = delete;  // of() takes addresses
+
+  const BatchConstants<T> numbers;
+
+  /// `number`, one of those in `numbers`, in every lane; aligned to 64 bytes.
+  const T* of(const T& number) const noexcept {
+    const auto offset = reinterpret_cast<std::uintptr_t>(&number) - reinterpret_cast<std::uintptr_t>(&numbers);
+    return wide_.get() + offset / sizeof(T) * lanes;
+  }
+
+ private:
+  static constexpr std::size_t count = sizeof(BatchConstants<T>) / sizeof(T);
+  hwy::AlignedFreeUniquePtr<T[]> wide_;
+};
 
 }  // namespace scotopic

@@ -10,6 +10,8 @@
 
 #include <hwy/highway.h>
 
+#include <initializer_list>
+#include <limits>
 #include <type_traits>
 
 #include "appearance/batch_constants.h"
@@ -19,10 +21,17 @@ HWY_BEFORE_NAMESPACE();
 namespace scotopic::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+// As wide as the machine's vectors, but no wider than constants are laid out for.
+template <typename T>
+using Tag = hn::CappedTag<T, WideConstants<T>::lanes>;
+
 template <class V>
 struct Triple {
   V x, y, z;
 };
+
+/// Whether pixels bring signals of their own: none, cones and rods, or what the flags of a vector say.
+enum class Receptors { absent, given, maybe };
 
 /// What one vector of pixels brings along; cones and rod are read only where the flags say so.
 template <class V>
@@ -33,84 +42,118 @@ struct PixelVector {
   bool has_cones, has_rod;
 };
 
-/// `usual`: RGB alone comes in, the stages are those of a look with every default, and the code for all else is left
-/// out. The same arithmetic, hence the same bits.
-template <class D, bool usual = false>
+/// Results for a vector of pixels. Those that are not `active` are left alone, whatever `rgb` says. Of the others,
+/// `doubtful` are those that need more digits: whose luminance is what is left of a cancellation, or with a negative
+/// cone signal, which the rods' may cancel under the kernel's root.
+template <class V, class M>
+struct SeenVector {
+  Triple<V> rgb;
+  M active, doubtful;
+};
+
+/// `stages` and `receptors` say what code is compiled for; StageSet::any asks the constants. The same arithmetic, hence
+/// the same bits, either way.
+template <class D, StageSet stages = StageSet::any, Receptors receptors = Receptors::maybe>
 class PixelOperator {
   using T = hn::TFromD<D>;
   using V = hn::Vec<D>;
   using M = hn::Mask<D>;
   using I = hwy::MakeSigned<T>;
-  static constexpr bool needs_more_digits = std::is_same_v<T, float>;
+  static constexpr bool any = stages == StageSet::any;
 
  public:
-  PixelOperator(D d, const BatchConstants<T>& k) : d_(d), k_(k) {}
+  static constexpr bool needs_more_digits = std::is_same_v<T, float>;
+  using Pixels = PixelVector<V>;
+  using Seen = SeenVector<V, M>;
 
-  /// Changes the pixels that the operator has something to do to; says which. Of these, `doubtful` are those
-  /// that need more digits: whose luminance is what is left of a cancellation, or with a negative cone signal,
-  /// which the rods' may cancel under the kernel's root.
-  HWY_INLINE M operator()(PixelVector<V>& p, M& doubtful) const {
-    M active = operable(p);
-    doubtful = hn::Lt(one(), hn::Zero(d_));
-    if (!usual && k_.safko) return safko(p, active, doubtful);
+  PixelOperator(D d, const WideConstants<T>& k) : d_(d), wide_(k), k_(k.numbers) {}
+
+  /// False: none of the pixels is active, and nothing else was found out.
+  HWY_INLINE bool operator()(const Pixels& p, Seen& seen) const {
+    if (safko()) return see_safko(p, seen);
     const V y = dot(k_.y_row, p.rgb);
-    V local = hn::Set(d_, k_.adaptation);
-    if (usual || k_.local) local = hn::Add(local, hn::Max(hn::Zero(d_), hn::Mul(y, set(k_.unit))));
-    active = hn::And(active, hn::Lt(local, set(T(photopic_luminance))));
-    if (hn::AllFalse(d_, active)) return active;
-    Triple<V> cones = times(k_.lms_from_rgb, p.rgb);
-    const Triple<V> cones_in = cones;
-    if constexpr (needs_more_digits) {
-      const Triple<V> magnitude = {hn::Abs(p.rgb.x), hn::Abs(p.rgb.y), hn::Abs(p.rgb.z)};
-      doubtful = hn::Lt(y, hn::Mul(set(T(0.5)), dot(k_.y_magnitude, magnitude)));
-      doubtful = hn::And(active, hn::Or(doubtful, below_zero(has_cones(p) ? p.cones : cones)));
-    }
-
-    const V share = rod_share(local);
-    const V rod = rod_signal(p, y);
-    Triple<V> rgb = p.rgb;
-    if (usual || k_.do_shift) rgb = shifted(p, cones, rod, share);
-    if (usual || k_.do_luminance) rgb = with_luminance(rgb, largest_cone(cones_in, cones), y, rod, share);
-    if (usual || k_.do_chroma) rgb = with_chroma(rgb, local);
-    p.rgb = select(active, rgb, p.rgb);
-    return active;
+    V local = set(k_.adaptation);
+    if (!any || k_.local) local = hn::Add(local, hn::Max(hn::Zero(d_), hn::Mul(y, set(k_.unit))));
+    // First what a lit picture is skipped by. NaN is not below.
+    seen.active = hn::Lt(local, number(T(photopic_luminance)));
+    if (hn::AllFalse(d_, seen.active)) return false;
+    seen.active = hn::And(seen.active, operable(p));
+    if (hn::AllFalse(d_, seen.active)) return false;
+    see(p, y, local, seen);
+    return true;
   }
 
- private:
-  static bool has_cones(const PixelVector<V>& p) { return !usual && p.has_cones; }
-  static bool has_rod(const PixelVector<V>& p) { return !usual && p.has_rod; }
-  bool gamut_is_rgb() const { return usual || k_.gamut_is_rgb; }
-
-  V set(T x) const { return hn::Set(d_, x); }
-  V one() const { return set(T(1)); }
-  // Divisors of lanes whose quotient is not used must not be 0 either.
-  V positive_or_one(V x) const { return hn::IfThenElse(hn::Gt(x, hn::Zero(d_)), x, one()); }
-
-  V dot(const Vec3<T>& row, const Triple<V>& v) const {
-    return hn::Add(hn::Add(hn::Mul(set(row[0]), v.x), hn::Mul(set(row[1]), v.y)), hn::Mul(set(row[2]), v.z));
-  }
-  Triple<V> times(const Matrix3<T>& m, const Triple<V>& v) const {
-    return {dot(m[0], v), dot(m[1], v), dot(m[2], v)};
-  }
-  Triple<V> scaled(V s, const Triple<V>& v) const { return {hn::Mul(s, v.x), hn::Mul(s, v.y), hn::Mul(s, v.z)}; }
-  Triple<V> sum(const Triple<V>& a, const Triple<V>& b) const {
-    return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
-  }
-  Triple<V> difference(const Triple<V>& a, const Triple<V>& b) const {
-    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-  }
   Triple<V> select(M mask, const Triple<V>& yes, const Triple<V>& no) const {
     return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
             hn::IfThenElse(mask, yes.z, no.z)};
   }
-  V smallest(const Triple<V>& v) const { return hn::Min(hn::Min(v.x, v.y), v.z); }
 
-  M below_zero(const Triple<V>& v) const { return hn::Lt(smallest(v), hn::Zero(d_)); }
+ private:
+  static constexpr bool one_of(std::initializer_list<StageSet> sets) {
+    for (const StageSet set : sets)
+      if (stages == set) return true;
+    return false;
+  }
+  bool safko() const { return any ? k_.safko : stages == StageSet::kernel; }
+  bool shift() const { return any ? k_.do_shift : one_of({StageSet::all, StageSet::grey, StageSet::shift}); }
+  bool project() const { return !any || k_.project; }
+  bool gamut_is_rgb() const { return !any || k_.gamut_is_rgb; }
+  bool luminance() const { return any ? k_.do_luminance : one_of({StageSet::all, StageSet::grey, StageSet::luminance}); }
+  bool mesopic_luminance() const { return any ? k_.mesopic_policy : stages != StageSet::grey; }
+  bool chroma() const { return any ? k_.do_chroma : one_of({StageSet::all, StageSet::grey, StageSet::chroma}); }
+  bool quadratic_rods() const { return any && k_.quadratic_rods; }
+
+  static bool has_cones(const Pixels& p) {
+    return receptors == Receptors::maybe ? p.has_cones : receptors == Receptors::given;
+  }
+  static bool has_rod(const Pixels& p) {
+    return receptors == Receptors::maybe ? p.has_rod : receptors == Receptors::given;
+  }
+
+  HWY_INLINE void see(const Pixels& p, V y, V local, Seen& seen) const {
+    Triple<V> cones = times(k_.lms_from_rgb, p.rgb);
+    const Triple<V> cones_in = cones;
+    if constexpr (needs_more_digits) {
+      const Triple<V> magnitude = {hn::Abs(p.rgb.x), hn::Abs(p.rgb.y), hn::Abs(p.rgb.z)};
+      const M cancelled = hn::Lt(y, hn::Mul(number(T(0.5)), dot(k_.y_magnitude, magnitude)));
+      seen.doubtful = hn::And(seen.active, hn::Or(cancelled, below_zero(has_cones(p) ? p.cones : cones)));
+    }
+    const V share = rod_share(local);
+    const V rod = rod_signal(p, y);
+    seen.rgb = p.rgb;
+    if (shift()) seen.rgb = shifted(p, cones, rod, share);
+    if (luminance()) seen.rgb = with_luminance(seen.rgb, largest_cone(cones_in, cones), y, rod, share);
+    if (chroma()) seen.rgb = with_chroma(seen.rgb, local);
+  }
+
+  // A constant of k_.
+  HWY_INLINE V set(const T& x) const { return hn::Load(d_, wide_.of(x)); }
+  HWY_INLINE V number(T x) const { return hn::Set(d_, x); }
+  HWY_INLINE V one() const { return number(T(1)); }
+  // Divisors of lanes whose quotient is not used must not be 0 either.
+  HWY_INLINE V positive_or_one(V x) const { return hn::IfThenElse(hn::Gt(x, hn::Zero(d_)), x, one()); }
+
+  HWY_INLINE V dot(const Vec3<T>& row, const Triple<V>& v) const {
+    return hn::Add(hn::Add(hn::Mul(set(row[0]), v.x), hn::Mul(set(row[1]), v.y)), hn::Mul(set(row[2]), v.z));
+  }
+  HWY_INLINE Triple<V> times(const Matrix3<T>& m, const Triple<V>& v) const {
+    return {dot(m[0], v), dot(m[1], v), dot(m[2], v)};
+  }
+  HWY_INLINE Triple<V> scaled(V s, const Triple<V>& v) const { return {hn::Mul(s, v.x), hn::Mul(s, v.y), hn::Mul(s, v.z)}; }
+  HWY_INLINE Triple<V> sum(const Triple<V>& a, const Triple<V>& b) const {
+    return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+  }
+  HWY_INLINE Triple<V> difference(const Triple<V>& a, const Triple<V>& b) const {
+    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+  }
+  HWY_INLINE V smallest(const Triple<V>& v) const { return hn::Min(hn::Min(v.x, v.y), v.z); }
+
+  HWY_INLINE M below_zero(const Triple<V>& v) const { return hn::Lt(smallest(v), hn::Zero(d_)); }
 
   // False for NaN, too.
-  M operable(V v) const { return hn::Le(hn::Abs(v), set(T(operable_limit))); }
-  M operable(const Triple<V>& v) const { return hn::And(hn::And(operable(v.x), operable(v.y)), operable(v.z)); }
-  M operable(const PixelVector<V>& p) const {
+  HWY_INLINE M operable(V v) const { return hn::Le(hn::Abs(v), number(T(operable_limit))); }
+  HWY_INLINE M operable(const Triple<V>& v) const { return hn::And(hn::And(operable(v.x), operable(v.y)), operable(v.z)); }
+  HWY_INLINE M operable(const Pixels& p) const {
     M yes = operable(p.rgb);
     if (has_cones(p)) yes = hn::And(yes, operable(p.cones));
     if (has_rod(p)) yes = hn::And(yes, operable(p.rod));
@@ -118,7 +161,7 @@ class PixelOperator {
   }
 
   // log2 of positive normal x.
-  V log2(V x) const {
+  HWY_INLINE V log2(V x) const {
     const hn::RebindToSigned<D> di;
     constexpr int mantissa_bits = sizeof(T) == 4 ? 23 : 52;
     constexpr I bias = sizeof(T) == 4 ? I(127) : I(1023);
@@ -126,22 +169,22 @@ class PixelOperator {
     const auto fraction = hn::And(bits, hn::Set(di, (I(1) << mantissa_bits) - 1));
     V exponent = hn::ConvertTo(d_, hn::Sub(hn::ShiftRight<mantissa_bits>(bits), hn::Set(di, bias)));
     V f = hn::BitCast(d_, hn::Or(fraction, hn::Set(di, bias << mantissa_bits)));
-    const M upper = hn::Gt(f, set(T(std::numbers::sqrt2)));
-    f = hn::IfThenElse(upper, hn::Mul(f, set(T(0.5))), f);
+    const M upper = hn::Gt(f, number(T(std::numbers::sqrt2)));
+    f = hn::IfThenElse(upper, hn::Mul(f, number(T(0.5))), f);
     exponent = hn::IfThenElse(upper, hn::Add(exponent, one()), exponent);
     const V s = hn::Div(hn::Sub(f, one()), hn::Add(f, one()));
     return hn::Add(exponent, hn::Mul(s, polynomial(k_.log_series, hn::Mul(s, s))));
   }
 
   template <std::size_t N>
-  V polynomial(const std::array<T, N>& c, V x) const {
+  HWY_INLINE V polynomial(const std::array<T, N>& c, V x) const {
     V sum = set(c[N - 1]);
     for (std::size_t k = N - 1; k-- > 0;) sum = hn::Add(hn::Mul(sum, x), set(c[k]));
     return sum;
   }
 
   // 1 - m.
-  V rod_share(V local) const {
+  HWY_INLINE V rod_share(V local) const {
     const V low = set(k_.scotopic_limit);
     const V inside = hn::Max(local, low);
     const V v = hn::Mul(log2(hn::Mul(inside, set(k_.inverse_high))), set(k_.per_octave));
@@ -150,13 +193,13 @@ class PixelOperator {
     return hn::IfThenElse(hn::Le(local, low), one(), share);
   }
 
-  V rod_signal(const PixelVector<V>& p, V y) const {
+  HWY_INLINE V rod_signal(const Pixels& p, V y) const {
     if (has_rod(p)) return hn::Max(hn::Zero(d_), p.rod);
-    const V estimate = !usual && k_.quadratic_rods ? quadratic_rod(p.rgb) : dot(k_.rod_row, p.rgb);
+    const V estimate = quadratic_rods() ? quadratic_rod(p.rgb) : dot(k_.rod_row, p.rgb);
     return hn::Max(hn::Max(estimate, hn::Mul(set(k_.rod_floor), y)), hn::Zero(d_));
   }
 
-  V quadratic_rod(const Triple<V>& rgb) const {
+  HWY_INLINE V quadratic_rod(const Triple<V>& rgb) const {
     const Triple<V> xyz = times(k_.xyz_from_rgb, rgb);
     const V zero = hn::Zero(d_);
     const V big_x = hn::Max(xyz.x, zero);
@@ -176,7 +219,7 @@ class PixelOperator {
 
   // Gains of the kernel times the rod signal. In double one division serves the three roots, whose product its
   // exponents hold; in float they would not.
-  Triple<V> rod_response(const Triple<V>& q, V rod) const {
+  HWY_INLINE Triple<V> rod_response(const Triple<V>& q, V rod) const {
     const Triple<V> root = {gain_root(q.x, rod, 0), gain_root(q.y, rod, 1), gain_root(q.z, rod, 2)};
     if constexpr (std::is_same_v<T, float>)
       return {hn::Div(rod, root.x), hn::Div(rod, root.y), hn::Div(rod, root.z)};
@@ -186,18 +229,18 @@ class PixelOperator {
     return {hn::Mul(over_xy, root.y), hn::Mul(over_xy, root.x), hn::Mul(over_all, xy)};
   }
   // The reciprocal of a gain, at least 1.
-  V gain_root(V q, V rod, std::size_t i) const {
+  HWY_INLINE V gain_root(V q, V rod, std::size_t i) const {
     const V signal = hn::Mul(set(k_.gain[i]), hn::Add(q, hn::Mul(set(k_.kappa[i]), rod)));
     return hn::Sqrt(hn::Add(one(), hn::Max(hn::Zero(d_), signal)));
   }
 
   // The shifted and projected colour; `cones`, of the colour that came in, become those of the result.
-  HWY_INLINE Triple<V> shifted(const PixelVector<V>& p, Triple<V>& cones, V rod, V share) const {
+  HWY_INLINE Triple<V> shifted(const Pixels& p, Triple<V>& cones, V rod, V share) const {
     const V w = hn::Mul(set(k_.shift), share);
     const Triple<V> response = scaled(w, rod_response(has_cones(p) ? p.cones : cones, rod));
     cones = sum(cones, times(k_.lms_shift, response));
     const Triple<V> moved = sum(p.rgb, times(k_.rgb_shift, response));
-    const Triple<V> rgb = usual || k_.project ? projected(moved, p.rgb, cones) : moved;
+    const Triple<V> rgb = project() ? projected(moved, p.rgb, cones) : moved;
     return select(hn::Gt(w, hn::Zero(d_)), rgb, p.rgb);
   }
 
@@ -216,43 +259,72 @@ class PixelOperator {
   }
 
   // GamutProjection::nearest for z outside; see there.
-  Triple<V> nearest(const Triple<V>& z) const {
-    V best_margin = set(-std::numeric_limits<T>::infinity());
+  HWY_INLINE Triple<V> nearest(const Triple<V>& z) const {
+    V margin = number(-std::numeric_limits<T>::infinity());
     Triple<V> best = {hn::Zero(d_), hn::Zero(d_), hn::Zero(d_)};
-    for (unsigned set_index = 1; set_index < k_.active.size(); ++set_index) {
-      const auto& active = k_.active[set_index];
-      const auto bound = [set_index](unsigned i) { return (set_index >> i & 1u) != 0; };
-      const Triple<V> margins = {dot(bound(0) ? active.dual[0] : active.primal[0], z),
-                                 dot(bound(1) ? active.dual[1] : active.primal[1], z),
-                                 dot(bound(2) ? active.dual[2] : active.primal[2], z)};
-      const V margin = smallest(margins);
-      const M better = hn::Gt(margin, best_margin);
-      best_margin = hn::IfThenElse(better, margin, best_margin);
-      const V zero = hn::Zero(d_);
-      best = select(better, {bound(0) ? zero : margins.x, bound(1) ? zero : margins.y, bound(2) ? zero : margins.z},
-                    best);
-    }
+    try_active_set<1>(z, margin, best);
+    try_active_set<2>(z, margin, best);
+    try_active_set<3>(z, margin, best);
+    try_active_set<4>(z, margin, best);
+    try_active_set<5>(z, margin, best);
+    try_active_set<6>(z, margin, best);
+    try_active_set<7>(z, margin, best);
     const V zero = hn::Zero(d_);
     return {hn::Max(best.x, zero), hn::Max(best.y, zero), hn::Max(best.z, zero)};
   }
 
-  V policy_luminance(V y, V rod, V share) const {
-    if (!usual && !k_.mesopic_policy) return y;
+  // Takes the solution of one active set where its worst entry is greater than `margin`.
+  template <unsigned bound>
+  HWY_INLINE void try_active_set(const Triple<V>& z, V& margin, Triple<V>& best) const {
+    const Triple<V> entries = {entry<bound, 0>(z), entry<bound, 1>(z), entry<bound, 2>(z)};
+    const V worst = smallest(entries);
+    const M better = hn::Gt(worst, margin);
+    margin = hn::IfThenElse(better, worst, margin);
+    best = {taken<bound, 0>(better, entries.x, best.x), taken<bound, 1>(better, entries.y, best.y),
+            taken<bound, 2>(better, entries.z, best.z)};
+  }
+  template <unsigned bound, unsigned i>
+  HWY_INLINE V taken(M better, V entry, V best) const {
+    if constexpr (bound >> i & 1u) return hn::IfThenZeroElse(better, best);
+    return hn::IfThenElse(better, entry, best);
+  }
+  // Entry i of the set's solution: the multiplier of a bound component, or a free one. Rows hold but the columns of
+  // bound components, and 1 at a free one's own: what is 0 and 1 there is not multiplied.
+  template <unsigned bound, unsigned i>
+  HWY_INLINE V entry(const Triple<V>& z) const {
+    constexpr bool is_bound = bound >> i & 1u;
+    const Vec3<T>& row = is_bound ? k_.active[bound].dual[i] : k_.active[bound].primal[i];
+    const V terms[3] = {term<bound, i, 0>(row, z.x), term<bound, i, 1>(row, z.y), term<bound, i, 2>(row, z.z)};
+    constexpr auto there = [](unsigned j) { return (bound >> j & 1u) != 0 || j == i; };
+    constexpr unsigned first = there(0) ? 0 : there(1) ? 1 : 2;
+    V sum = terms[first];
+    if constexpr (first < 1 && there(1)) sum = hn::Add(sum, terms[1]);
+    if constexpr (first < 2 && there(2)) sum = hn::Add(sum, terms[2]);
+    return sum;
+  }
+  template <unsigned bound, unsigned i, unsigned j>
+  HWY_INLINE V term(const Vec3<T>& row, V z) const {
+    if constexpr (bound >> j & 1u) return hn::Mul(set(row[j]), z);
+    return z;
+  }
+
+  HWY_INLINE V policy_luminance(V y, V rod, V share) const {
+    if (!mesopic_luminance()) return y;
     const V rods = hn::Mul(share, set(k_.rods_weight));
     const V weight = hn::Div(rods, hn::Add(hn::Sub(one(), share), rods));
     return hn::Add(y, hn::Mul(weight, hn::Sub(hn::Mul(rod, set(k_.inverse_rod_white)), y)));
   }
 
   // The greatest magnitude of the cone signals of two colours, white's being 1.
-  V largest_cone(const Triple<V>& a, const Triple<V>& b) const {
+  HWY_INLINE V largest_cone(const Triple<V>& a, const Triple<V>& b) const {
     return hn::Max(hn::Max(largest_cone(a.x, b.x, 0), largest_cone(a.y, b.y, 1)), largest_cone(a.z, b.z, 2));
   }
-  V largest_cone(V a, V b, std::size_t i) const {
+  HWY_INLINE V largest_cone(V a, V b, std::size_t i) const {
     return hn::Mul(hn::Max(hn::Abs(a), hn::Abs(b)), set(k_.inverse_cone_white[i]));
   }
 
   // luminance_ratio() of reference.h, and what leads to it.
-  Triple<V> with_luminance(const Triple<V>& rgb, V largest, V y, V rod, V share) const {
+  HWY_INLINE Triple<V> with_luminance(const Triple<V>& rgb, V largest, V y, V rod, V share) const {
     const V from = dot(k_.y_row, rgb);
     const V goal = hn::Add(y, hn::Mul(set(k_.luminance_goal), hn::Sub(policy_luminance(y, rod, share), y)));
     const V to = hn::Add(goal, hn::Mul(set(k_.luminance_left), hn::Sub(from, goal)));
@@ -262,13 +334,13 @@ class PixelOperator {
     const V u = hn::Div(from, divisor);
     // Not u (to/f): 0 times infinity is no number.
     V ratio = hn::Add(hn::Div(hn::Mul(u, to), divisor), hn::Sub(one(), hn::Mul(u, u)));
-    ratio = hn::Min(hn::Max(ratio, zero), set(T(1e18)));
+    ratio = hn::Min(hn::Max(ratio, zero), number(T(1e18)));
     // Nothing to change is 1 to the last bit. (Black, f = 0, among it: from = to = 0, or nothing to scale.)
     ratio = hn::IfThenElse(hn::And(hn::Gt(f, zero), hn::Ne(to, from)), ratio, one());
     return scaled(ratio, rgb);
   }
 
-  Triple<V> with_chroma(const Triple<V>& rgb, V local) const {
+  HWY_INLINE Triple<V> with_chroma(const Triple<V>& rgb, V local) const {
     const V s = hn::Mul(hn::Div(local, hn::Add(local, set(k_.chroma_half))), set(k_.chroma_at_5));
     const V keep = hn::Sub(one(), hn::Mul(set(k_.chroma), hn::Sub(one(), hn::Min(one(), s))));
     const V y = dot(k_.y_row, rgb);
@@ -277,16 +349,18 @@ class PixelOperator {
     return select(hn::Lt(keep, one()), faded, rgb);
   }
 
-  HWY_INLINE M safko(PixelVector<V>& p, M active, M& doubtful) const {
-    const Triple<V> q = p.has_cones ? p.cones : times(k_.lms_from_rgb, p.rgb);
-    if constexpr (needs_more_digits) doubtful = hn::And(active, below_zero(q));
+  HWY_INLINE bool see_safko(const Pixels& p, Seen& seen) const {
+    seen.active = operable(p);
+    if (hn::AllFalse(d_, seen.active)) return false;
+    const Triple<V> q = has_cones(p) ? p.cones : times(k_.lms_from_rgb, p.rgb);
+    if constexpr (needs_more_digits) seen.doubtful = hn::And(seen.active, below_zero(q));
     const V rod = rod_signal(p, dot(k_.y_row, p.rgb));
-    const Triple<V> rgb = sum(times(k_.rgb_from_lms, q), times(k_.rgb_shift, rod_response(q, rod)));
-    p.rgb = select(active, rgb, p.rgb);
-    return active;
+    seen.rgb = sum(times(k_.rgb_from_lms, q), times(k_.rgb_shift, rod_response(q, rod)));
+    return true;
   }
 
   D d_;
+  const WideConstants<T>& wide_;
   const BatchConstants<T>& k_;
 };
 

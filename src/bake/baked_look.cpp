@@ -7,6 +7,7 @@
 
 #include "bake/ladder.h"
 #include "bake/look_chain.h"
+#include "bake/look_matrix.h"
 #include "bake/number_text.h"
 #include "bake/ocio_chain.h"
 #include "image/primaries.h"
@@ -105,8 +106,11 @@ BakedLook bake_look(const LookSpec& spec, const ColourConfig& config, const std:
                         encoding(config.from_working(space)));
     look.error = measure_encoded(spec, config, cpu_processor(ocio_transform(chain), raw));
   } else {
+    const std::optional<Matrix3<double>> matrix = look_matrix(spec.parameters);
     if (is_identity(spec.parameters))
       chain.steps = {MatrixStep{}};
+    else if (matrix)
+      chain.steps = {RangeStep{-look_limit, look_limit}, MatrixStep{*matrix, {}}};
     else
       chain = look_chain(spec.parameters, spec.edge);
     look.error = measure_bake(spec.parameters, cpu_processor(ocio_transform(chain), raw),

@@ -1,6 +1,7 @@
 #include "bake/ladder.h"
 
 #include "appearance/stages.h"
+#include "bake/look_matrix.h"
 #include "bake/number_text.h"
 
 namespace scotopic {
@@ -10,11 +11,13 @@ std::string adaptation_text(double adaptation) {
 }
 
 bool is_identity(const AppearanceParameters& p) {
-  return p.model != Model::safko2019 && !(p.adaptation < photopic_luminance);
+  const std::optional<Matrix3<double>> matrix = look_matrix(p);
+  return matrix && matrix->rows == identity3<double>().rows;
 }
 
 std::string look_name(const AppearanceParameters& p) {
-  std::string name = (is_identity(p) ? "Photopic " : "Mesopic ") + adaptation_text(p.adaptation) + " nit";
+  const bool photopic = p.model != Model::safko2019 && !(p.adaptation < photopic_luminance);
+  std::string name = (photopic ? "Photopic " : "Mesopic ") + adaptation_text(p.adaptation) + " nit";
   for (const LadderStep& step : ladder)
     if (step.adaptation == p.adaptation) name += " (" + std::string(step.scene) + ")";
   if (p.model != Model::filament2021) name += " " + std::string(name_of(p.model));

@@ -6,6 +6,7 @@
 #include "bake/chain_text.h"
 #include "bake/highlights.h"
 #include "bake/ladder.h"
+#include "bake/look_matrix.h"
 #include "bake/sha256.h"
 
 namespace scotopic {
@@ -39,15 +40,15 @@ LookEntry context_entry(const LookSpec& spec) {
 /// The loss of colour alone, with the global weight: the one effect that is a matrix, so exact and free of
 /// cost.
 LookEntry chroma_entry(const AppearanceParameters& p) {
-  const double keep = chroma_factor(p.adaptation);
-  Matrix3<double> matrix = diagonal<double>({keep, keep, keep});
-  for (auto& row : matrix.rows)
-    for (std::size_t j = 0; j < 3; ++j) row[j] += (1 - keep) * p.xyz_from_rgb[1][j];
+  AppearanceParameters chroma = p;
+  chroma.weight = Weight::global;
+  chroma.strength = {.all = 1, .shift = 0, .luminance = 0, .chroma = 1};
   LookEntry entry;
   entry.name = fmt::format("Chroma {} nit (global weight matrix)", adaptation_text(p.adaptation));
   entry.description = fmt::format(
-      "Loss of colour alone, global weight, exact: a matrix that keeps {:.4g} of the chroma", keep);
-  entry.matrix = matrix;
+      "Loss of colour alone, global weight, exact: a matrix that keeps {:.4g} of the chroma",
+      chroma_factor(p.adaptation));
+  entry.matrix = look_matrix(chroma);
   entry.view = false;
   return entry;
 }

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <deque>
 #include <mutex>
 #include <thread>
 
 #include "image/acuity_rows.h"
+#include "image/copy_pixels.h"
 #include "image/row_bands.h"
 
 namespace scotopic {
@@ -37,10 +37,16 @@ class PictureRun {
   /// Fills `out` from `in`; `interleaved` as the sink wants it.
   void run(const Band& in, Band& out, bool interleaved) const {
     allocate(in, out, interleaved);
-    each_row(in, [&](int row, LightRow& light) {
-      if (copies()) return copy_row(in, row, light, out);
-      see_row(in, row, light);
-      write_row(in, row, light, out);
+    // Receptors' signals have no columns of their own to take pieces of.
+    if (reader_.receptors())
+      return each_row(in, [&](int row, LightRow& light) { run_piece(in, row, light, out); });
+    const std::vector<Band> from = pieces(in), to = pieces(out);
+    parallel_rows(in.rows, 8, [&](int first, int last) {
+      // All pieces are of one width, but for the last.
+      LightRow light(static_cast<std::size_t>(from.front().width)), rest(static_cast<std::size_t>(from.back().width));
+      for (int row = first; row < last; ++row)
+        for (std::size_t i = 0; i < from.size(); ++i)
+          run_piece(from[i], row, i + 1 < from.size() ? light : rest, to[i]);
     });
   }
 
@@ -90,6 +96,31 @@ class PictureRun {
     }
   }
 
+  /// A row goes piece by piece from the file's bytes to the file's bytes, while it is in the nearest cache; a piece that
+  /// nothing is done to keeps the bytes it has.
+  static constexpr int piece_width = 512;
+
+  /// Views of a band's columns.
+  static std::vector<Band> pieces(const Band& band) {
+    std::vector<Band> out(static_cast<std::size_t>((band.width + piece_width - 1) / piece_width));
+    int x = 0;
+    for (Band& piece : out) {
+      piece.y0 = band.y0;
+      piece.rows = band.rows;
+      piece.width = std::min(piece_width, band.width - x);
+      piece.channels = band.channels;
+      for (ChannelRows& channel : piece.channels) channel.data += x * channel.stride;
+      x += piece_width;
+    }
+    return out;
+  }
+
+  void run_piece(const Band& in, int row, LightRow& light, const Band& out) const {
+    if (copies()) return copy_row(in, row, light, out);
+    see_row(in, row, light);
+    write_row(in, row, light, out);
+  }
+
   void allocate(const Band& in, Band& out, bool interleaved) const {
     const std::vector<Channel>& channels = out_.picture.channels;
     if (interleaved)
@@ -109,7 +140,7 @@ class PictureRun {
   /// Nothing is called for, and nothing else changes values: the file's own bytes go through.
   bool copies() const { return !apply_ && writer_.keep_untouched && !reader_.receptors(); }
 
-  void copy_row(const Band& in, int row, LightRow& room, Band& out) const {
+  void copy_row(const Band& in, int row, LightRow& room, const Band& out) const {
     const bool grey = light_.channels.kind == ColourChannels::Kind::grey;
     for (std::size_t c = 0; c < 3; ++c)
       copy_other(in.channels[light_.channels.index[grey ? 0 : c]].row(row), out.channels[c].row(row), room.r);
@@ -122,7 +153,7 @@ class PictureRun {
     else std::fill(light.touched.begin(), light.touched.end(), std::uint8_t{0});
   }
 
-  void write_row(const Band& in, int row, LightRow& light, Band& out) const {
+  void write_row(const Band& in, int row, LightRow& light, const Band& out) const {
     const NativeRow targets[3] = {out.channels[0].row(row), out.channels[1].row(row),
                                   out.channels[2].row(row)};
     if (reader_.receptors()) {
@@ -138,7 +169,7 @@ class PictureRun {
     copy_others(in, row, light, out);
   }
 
-  void copy_others(const Band& in, int row, LightRow& room, Band& out) const {
+  void copy_others(const Band& in, int row, LightRow& room, const Band& out) const {
     for (std::size_t i = 0; i < others_.size(); ++i)
       copy_other(in.channels[others_[i]].row(row), out.channels[3 + i].row(row), room.r);
   }
@@ -159,18 +190,11 @@ class PictureRun {
   }
 
   static void copy_other(const NativeRow& from, const NativeRow& to, std::vector<float>& room) {
-    const std::size_t width = room.size();
-    const std::size_t size = size_of(from.type);
-    const auto packed = static_cast<std::ptrdiff_t>(size);
-    if (from.type == to.type && from.stride == packed && to.stride == packed) {
-      std::memcpy(to.data, from.data, width * size);
-    } else if (from.type == to.type) {
-      for (std::size_t i = 0; i < width; ++i)
-        std::memcpy(to.data + static_cast<std::ptrdiff_t>(i) * to.stride,
-                    from.data + static_cast<std::ptrdiff_t>(i) * from.stride, size);
+    if (from.type == to.type) {
+      copy_pixels(from, room.size(), to);
     } else {
-      load_row(from, width, room.data());
-      store_row(room.data(), width, to);
+      load_row(from, room.size(), room.data());
+      store_row(room.data(), room.size(), to);
     }
   }
 

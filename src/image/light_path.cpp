@@ -1,7 +1,9 @@
 #include "image/light_path.h"
 
 #include <algorithm>
+#include <cstring>
 
+#include "image/copy_pixels.h"
 #include "receptors/receptor_space.h"
 
 namespace scotopic {
@@ -72,25 +74,42 @@ void LightReader::read(const Band& band, int row, LightRow& out) const {
   to_working_.apply(out.r.data(), out.g.data(), out.b.data(), width);
 }
 
-void LightWriter::write(LightRow& light, const NativeRow (&out)[3], const NativeRow (*source)[3]) const {
+namespace {
+
+/// What comes between the operator's result and the file's values.
+void convert(const LightWriter& to, LightRow& light) {
   const std::size_t width = light.r.size();
   std::vector<float>* const planes[3] = {&light.r, &light.g, &light.b};
-  if (alpha == AlphaChange::unassociate) {
+  if (to.alpha == AlphaChange::unassociate) {
     for (std::vector<float>* plane : planes)
       for (std::size_t i = 0; i < width; ++i)
         if (light.alpha[i] > 0) (*plane)[i] /= light.alpha[i];
   }
-  if (gain != 1)
+  if (to.gain != 1)
     for (std::vector<float>* plane : planes)
-      for (float& value : *plane) value *= gain;
-  from_working.apply(light.r.data(), light.g.data(), light.b.data(), width);
-  if (alpha == AlphaChange::associate)
+      for (float& value : *plane) value *= to.gain;
+  to.from_working.apply(light.r.data(), light.g.data(), light.b.data(), width);
+  if (to.alpha == AlphaChange::associate)
     for (std::vector<float>* plane : planes)
       for (std::size_t i = 0; i < width; ++i) (*plane)[i] *= light.alpha[i];
+}
+
+}  // namespace
+
+void LightWriter::write(LightRow& light, const NativeRow (&out)[3], const NativeRow (*source)[3]) const {
+  const std::size_t width = light.r.size();
+  const std::uint8_t* const touched = light.touched.data();
+  const auto keeps = [&](std::size_t c) { return keep_untouched && source && (*source)[c].type == out[c].type; };
+  if (keeps(0) && keeps(1) && keeps(2) && !std::memchr(touched, 1, width)) {
+    for (std::size_t c = 0; c < 3; ++c) copy_pixels((*source)[c], width, out[c]);
+    return;
+  }
+  convert(*this, light);
+  const bool all = std::memchr(touched, 0, width) == nullptr;
+  const std::vector<float>* const planes[3] = {&light.r, &light.g, &light.b};
   for (std::size_t c = 0; c < 3; ++c) {
     store_row(planes[c]->data(), width, out[c]);
-    if (keep_untouched && source && (*source)[c].type == out[c].type)
-      copy_where_zero(light.touched.data(), (*source)[c], width, out[c]);
+    if (keeps(c) && !all) copy_where_zero(touched, (*source)[c], width, out[c]);
   }
 }
 

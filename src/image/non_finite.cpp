@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "image/error.h"
@@ -15,6 +17,22 @@ namespace {
 bool finite_signals(const PixelRows& rows, std::size_t i) {
   const auto fine = [i](const float* plane) { return plane == nullptr || std::isfinite(plane[i]); };
   return fine(rows.cone_l) && fine(rows.cone_m) && fine(rows.cone_s) && fine(rows.rod);
+}
+
+/// Whether any of them is: one pass without branches.
+bool any_non_finite(const float* values, std::size_t count) {
+  std::uint32_t any = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    any |= (std::bit_cast<std::uint32_t>(values[i]) & 0x7f800000u) == 0x7f800000u;
+  return any != 0;
+}
+
+bool any_non_finite(const PixelRows& rows) {
+  for (const float* plane :
+       {static_cast<const float*>(rows.r), static_cast<const float*>(rows.g), static_cast<const float*>(rows.b),
+        rows.cone_l, rows.cone_m, rows.cone_s, rows.rod})
+    if (plane && any_non_finite(plane, rows.count)) return true;
+  return false;
 }
 
 bool finite_pixel(const PixelRows& rows, std::size_t i) {
@@ -34,8 +52,9 @@ RowOperator NonFiniteWatch::watched(RowOperator apply) const {
   return [clean = policy_ == NonFinite::clean, count = count_, apply = std::move(apply)](const PixelRows& rows,
                                                                                          std::uint8_t* touched) {
     std::vector<std::size_t> bad;
-    for (std::size_t i = 0; i < rows.count; ++i)
-      if (!finite_pixel(rows, i)) bad.push_back(i);
+    if (any_non_finite(rows))
+      for (std::size_t i = 0; i < rows.count; ++i)
+        if (!finite_pixel(rows, i)) bad.push_back(i);
     if (clean)
       for (const std::size_t i : bad) clean_pixel(rows, i);
     if (apply) apply(rows, touched);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "appearance/half_rows.h"
+
 namespace scotopic {
 namespace {
 
@@ -47,6 +49,17 @@ void each_store(const float* values, std::size_t count, const NativeRow& row, Co
   for (std::size_t i = 0; i < count; ++i, at += row.stride) store(at, convert(values[i]));
 }
 
+/// Elements next to each other, where their type may be read and written.
+bool packed(const NativeRow& row) {
+  const std::size_t size = size_of(row.type);
+  return row.stride == static_cast<std::ptrdiff_t>(size) && reinterpret_cast<std::uintptr_t>(row.data) % size == 0;
+}
+
+template <typename T>
+T* elements(const NativeRow& row) {
+  return reinterpret_cast<T*>(row.data);
+}
+
 }  // namespace
 
 std::size_t size_of(PixelType type) {
@@ -80,6 +93,13 @@ std::string_view name_of(PixelType type) {
 }
 
 void load_row(const NativeRow& row, std::size_t count, float* out) {
+  if (packed(row)) {
+    if (row.type == PixelType::half) return floats_from_halves(elements<const std::uint16_t>(row), count, out);
+    if (row.type == PixelType::float32) {
+      std::memcpy(out, row.data, count * sizeof(float));
+      return;
+    }
+  }
   switch (row.type) {
     case PixelType::uint8:
       return each_load(row, count, out,
@@ -101,6 +121,13 @@ void load_row(const NativeRow& row, std::size_t count, float* out) {
 }
 
 void store_row(const float* values, std::size_t count, const NativeRow& row) {
+  if (packed(row)) {
+    if (row.type == PixelType::half) return halves_from_floats(values, count, elements<std::uint16_t>(row));
+    if (row.type == PixelType::float32) {
+      std::memcpy(row.data, values, count * sizeof(float));
+      return;
+    }
+  }
   switch (row.type) {
     case PixelType::uint8:
       return each_store(values, count, row, quantise<std::uint8_t>);

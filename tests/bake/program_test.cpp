@@ -1,4 +1,5 @@
 // scotopic bake and scotopic check as their users run them.
+#include <OpenColorIO/OpenColorIO.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -10,6 +11,7 @@ namespace scotopic {
 namespace {
 
 namespace fs = std::filesystem;
+namespace OCIO = OCIO_NAMESPACE;
 using test::Outcome;
 using test::run_program;
 
@@ -83,6 +85,38 @@ TEST_F(Bake, linear_light_of_other_primaries_is_taken_as_such) {
             std::string::npos)
       << test::read_text(file).substr(0, 1200);
   EXPECT_EQ(run_program({"check", file, "--max-error", "2.5"}).exit_code, 0);
+}
+
+// What the planner says of a look is what is baked of it.
+TEST_F(Bake, a_look_that_calls_for_nothing_is_a_no_op_and_one_of_chroma_alone_a_matrix) {
+  const struct {
+    std::vector<std::string> options;
+    bool lut, no_op;
+  } rows[] = {{{"--adaptation", "4.999"}, true, false},
+              {{"--adaptation", "5"}, false, true},
+              {{"--adaptation", "5.001"}, false, true},
+              {{"--adaptation", "0.01", "--effects", "none"}, false, true},
+              {{"--adaptation", "0.01", "--strength", "0"}, false, true},
+              {{"--adaptation", "0.01", "--effects", "chroma", "--weight", "global"}, false, false},
+              {{"--adaptation", "0.01", "--effects", "chroma"}, true, false},
+              {{"--adaptation", "0.01", "--effects", "shift", "--weight", "global"}, true, false}};
+  for (const auto& row : rows) {
+    const std::string file = folder_.path("plan.clf");
+    std::vector<std::string> arguments = {"bake", "--size", "17", "-o", file};
+    arguments.insert(arguments.end(), row.options.begin(), row.options.end());
+    const Outcome baked = run_program(arguments);
+    ASSERT_EQ(baked.exit_code, 0) << baked.err;
+    const std::string text = test::read_text(file);
+    EXPECT_EQ(text.find("<LUT3D") != std::string::npos, row.lut) << row.options[1] << text.substr(0, 900);
+    EXPECT_EQ(text.find("<Log") != std::string::npos, row.lut);
+    const OCIO::FileTransformRcPtr transform = OCIO::FileTransform::Create();
+    transform->setSrc(file.c_str());
+    EXPECT_EQ(OCIO::Config::CreateRaw()->getProcessor(transform)->isNoOp(), row.no_op) << row.options[1];
+    // A matrix is exact: to what float holds. check measures it against the operator.
+    if (row.lut) continue;
+    const Outcome checked = run_program({"check", file, "--max-error", "0.001"});
+    EXPECT_EQ(checked.exit_code, 0) << checked.out << checked.err;
+  }
 }
 
 TEST_F(Bake, several_luminances_get_a_file_each) {

@@ -112,6 +112,47 @@ TimedRun scalar(Frames& f, const AppearanceParameters& p) {
           scalar_rows * width};
 }
 
+/// The thesis' formula as it is first written down: a pixel at a time, in double, a matrix at a time.
+struct NaiveKernel {
+  AppearanceParameters p = kernel_alone();
+  OperatorConstants constants{p};
+  KernelPreset preset = kernel_preset(p.model);
+  Matrix3<double> lms_from_opponent = inverse(opponent_from_lms), rgb_from_lms = rgb_from_lms_cat02(p);
+  bool power;  // 1/sqrt(x) as pow(x, -1/2)
+
+  explicit NaiveKernel(bool with_power) : power(with_power) {}
+
+  void operator()(const PixelRows& rows, std::size_t i) const {
+    const Vec3<double> rgb = {rows.r[i], rows.g[i], rows.b[i]};
+    const Vec3<double> lms = constants.lms_from_rgb * rgb;
+    const double t = p.safko_scale * p.white_luminance;
+    const double rod = t * rod_signal_from_rgb(constants, rgb);
+    Vec3<double> gained{}, seen{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double signal = 1 + preset.gain[k] * std::max(0.0, t * lms[k] + preset.kappa[k] * rod);
+      gained[k] = rod * (power ? std::pow(signal, -0.5) : 1 / std::sqrt(signal));
+    }
+    const Vec3<double> shift = lms_from_opponent * (preset.opponent * gained);
+    for (std::size_t k = 0; k < 3; ++k) seen[k] = lms[k] + shift[k] / t;
+    const Vec3<double> out = rgb_from_lms * seen;
+    rows.r[i] = static_cast<float>(out[0]);
+    rows.g[i] = static_cast<float>(out[1]);
+    rows.b[i] = static_cast<float>(out[2]);
+  }
+};
+
+TimedRun naive(Frames& f, bool power) {
+  const auto kernel = std::make_shared<NaiveKernel>(power);
+  return {[&f] { f.restore(); },
+          [&f, kernel] {
+            for (std::size_t y = 0; y < scalar_rows; ++y) {
+              const PixelRows rows = f.row(y);
+              for (std::size_t i = 0; i < width; ++i) (*kernel)(rows, i);
+            }
+          },
+          scalar_rows * width};
+}
+
 std::vector<Named> cases(Frames& f) {
   const auto batch = [](const AppearanceParameters& p, Precision precision) {
     return std::make_shared<AppearanceBatch>(p, precision);
@@ -129,6 +170,8 @@ std::vector<Named> cases(Frames& f) {
       {"operator, float, photopic", planes(f, batch(light, single), false)},
       {"operator, float, 2 threads", planes(f, batch(full, single), true)},
       {"operator, double inside, 2 threads", planes(f, batch(full, dual), true)},
+      {"kernel, naive double, pow", naive(f, true)},
+      {"kernel, naive double, sqrt", naive(f, false)},
       {"kernel, scalar double", scalar(f, kernel)},
       {"operator, scalar double", scalar(f, full)}};
 }

@@ -3,14 +3,21 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "appearance/colour_difference.h"
 #include "cli/run_program.h"
+#include "receptors/rods.h"
+#include "support/primaries.h"
 
 namespace scotopic {
 namespace {
@@ -83,6 +90,86 @@ TEST_F(Plan, acuity_runs_only_where_the_picture_holds_more_than_the_eye_resolves
   const test::Outcome fine = apply("fine.exr", {"--adaptation", "0.01", "--ppd", "60"});
   EXPECT_EQ(fine.err.find("skipped"), std::string::npos) << fine.err;
   EXPECT_NE(pixels("fine.exr"), pixels("plain.exr"));
+}
+
+// A picture whose every pixel has an S/P ratio further from white's by `deviation` (Rec.709, linear rods).
+void write_tinted(const std::string& file, double deviation) {
+  // S/P over white's of (1, 1, 1 + t) is 1 + slope t for small t.
+  const Vec3<double> white = test::rec709 * Vec3<double>{1, 1, 1}, tinted = test::rec709 * Vec3<double>{1, 1, 1.001};
+  const auto ratio = [](const Vec3<double>& xyz) { return dot(scotopic_linear_from_xyz, xyz) / xyz[1]; };
+  const double slope = (ratio(tinted) / ratio(white) - 1) / 0.001;
+  const auto blue = static_cast<float>(1 + deviation / slope);
+  constexpr int width = 64, height = 32;
+  std::vector<float> planes(3 * width * height);
+  for (int i = 0; i < width * height; ++i) {
+    const float level = 0.001f * static_cast<float>(1 + i);
+    for (int c = 0; c < 3; ++c) planes[static_cast<std::size_t>(c * width * height + i)] = c == 2 ? level * blue : level;
+  }
+  Imf::Header header(width, height);
+  Imf::FrameBuffer frame;
+  for (int c = 0; c < 3; ++c) {
+    const std::string name(1, "RGB"[c]);
+    header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    frame.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(planes.data() + c * width * height), 4, 4 * width));
+  }
+  Imf::OutputFile out(file.c_str(), header);
+  out.setFrameBuffer(frame);
+  out.writePixels(height);
+}
+
+std::vector<float> float_pixels(const std::string& name) {
+  Imf::InputFile file(name.c_str());
+  const Imath::Box2i window = file.header().dataWindow();
+  const auto width = static_cast<std::size_t>(window.max.x + 1), height = static_cast<std::size_t>(window.max.y + 1);
+  std::vector<float> values(3 * width * height);
+  Imf::FrameBuffer buffer;
+  for (std::size_t c = 0; c < 3; ++c)
+    buffer.insert(std::string(1, "RGB"[c]),
+                  Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data() + c * width * height), 4, 4 * width));
+  file.setFrameBuffer(buffer);
+  file.readPixels(window.min.y, window.max.y);
+  return values;
+}
+
+double largest_difference(const std::vector<float>& a, const std::vector<float>& b) {
+  double largest = 0;
+  const std::size_t n = a.size() / 3;
+  for (std::size_t i = 0; i < n; ++i)
+    largest = std::max(largest, exposed_difference(test::rec709 * Vec3<double>{a[i], a[n + i], a[2 * n + i]},
+                                                   test::rec709 * Vec3<double>{b[i], b[n + i], b[2 * n + i]}));
+  return largest;
+}
+
+TEST_F(Plan, mesopic_luminance_is_skipped_up_to_the_tolerance_and_that_cannot_be_seen) {
+  double worst = 0;
+  for (const double deviation : {-0.0021, -0.0019, 0.0, 0.0019, 0.0021})
+    for (const char* adaptation : {"auto", "auto:median"}) {
+      write_tinted(path("in.exr"), deviation);
+      const test::Outcome planned = apply("auto.exr", {"--adaptation", adaptation, "--white-luminance", "0.01"});
+      apply("all.exr", {"--adaptation", adaptation, "--white-luminance", "0.01", "--effects", "all", "-q"});
+      const bool skipped = planned.err.find("skipped luminance") != std::string::npos;
+      EXPECT_EQ(skipped, std::abs(deviation) < 0.002) << deviation << planned.err;
+      const std::vector<float> a = float_pixels(path("auto.exr")), b = float_pixels(path("all.exr"));
+      EXPECT_TRUE(skipped || a == b) << deviation;
+      worst = std::max(worst, largest_difference(a, b));
+    }
+  std::printf("skipped luminance: largest dE00 %.3g\n", worst);
+  EXPECT_LE(worst, 0.05);
+  EXPECT_GT(worst, 0);
+}
+
+TEST_F(Plan, acuity_turns_on_where_the_picture_s_finest_detail_meets_what_the_eye_resolves) {
+  // At .01 cd/m2, 5.3137 cycles a degree, by the very number that explain prints.
+  const test::Outcome explained =
+      test::run_program({"explain", path("in.exr"), "--adaptation", "0.01", "--ppd", "20", "--json"});
+  const double limit = nlohmann::json::parse(explained.out)["effects"]["acuity"]["threshold"].get<double>();
+  apply("plain.exr", {"--adaptation", "0.01", "-q"});
+  for (const double share : {0.999, 1.001}) {
+    const std::string ppd = std::to_string(2 * limit * share);
+    const test::Outcome outcome = apply("seen.exr", {"--adaptation", "0.01", "--ppd", ppd});
+    EXPECT_EQ(outcome.err.find("skipped acuity") != std::string::npos, share < 1) << outcome.err;
+    EXPECT_EQ(pixels("seen.exr") == pixels("plain.exr"), share < 1) << share;
+  }
 }
 
 TEST_F(Plan, adaptation_is_metered_the_way_it_is_asked_for) {

@@ -30,8 +30,10 @@ int main(int argc, char** argv) {
   if (std::strcmp(argv[1], "shift") == 0) {
     p.strength.chroma = 0;
     p.luminance = LuminancePolicy::none;
-    p.xyz_from_gamut.reset();
   }
+  // The darkest pixel has a component of 1e-4/64: lit beyond 5 cd/m2.
+  if (std::strcmp(argv[1], "lit") == 0) p.white_luminance = 1e8;
+  if (std::strcmp(argv[1], "general") == 0) p.weight = Weight::global;
   if (std::strcmp(argv[1], "kernel") == 0) p.model = Model::safko2019;
   const bool half = std::strcmp(argv[1], "half") == 0;
   const bool dual = std::strcmp(argv[1], "double") == 0;
