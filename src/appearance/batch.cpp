@@ -65,41 +65,72 @@ HWY_NOINLINE void store_some(const WideConstants<double>& exact, const Results<E
     if ((active & ~doubtful) >> i & 1u) out.copy(i, rows, at + i);
 }
 
-// One vector of pixels at `at`. Pixels that are not touched keep their bits.
-template <StageSet stages, Receptors receptors, class D, class Rows>
-HWY_INLINE void apply_vector(const PixelOperator<D, stages, receptors>& op, const WideConstants<double>& exact,
-                             const Rows& rows, std::size_t at, std::uint8_t* touched) {
-  using Operator = PixelOperator<D, stages, receptors>;
-  const D d;
+// Stores the results of one vector of pixels, `p` as they came in. Pixels that are not touched keep their bits.
+template <class D, class Rows>
+HWY_NOINLINE void store_mixed(D d, const WideConstants<double>& exact, const PixelVector<hn::Vec<D>>& p,
+                              const SeenVector<hn::Vec<D>, hn::Mask<D>>& seen, const Rows& rows, std::size_t at,
+                              const ElementVector<D, Element<Rows>>& alpha, std::uint8_t* touched) {
   const std::size_t lanes = hn::Lanes(d);
-  auto alpha = hn::Zero(hn::Rebind<Element<Rows>, D>());
-  const auto p = load_pixels<receptors>(d, rows, at, alpha);
-  typename Operator::Seen seen;
-  if (!op(p, seen)) {
-    if (touched) std::memset(touched + at, 0, lanes);
-    return;
-  }
-  auto plain = seen.active;
-  if constexpr (Operator::needs_more_digits) plain = hn::AndNot(seen.doubtful, seen.active);
-  if (HWY_LIKELY(hn::AllTrue(d, plain))) {
-    if (touched) std::memset(touched + at, 1, lanes);
-    store_pixels(d, seen.rgb, rows, at, alpha);
-    return;
-  }
-  const std::uint64_t active = lane_bits(d, seen.active);
+  const std::uint64_t active = lane_bits(d, seen.active), doubtful = lane_bits(d, seen.doubtful);
   if (touched) mark(touched + at, lanes, active);
+  if (active == 0) return;
   if constexpr (std::is_same_v<hn::TFromD<D>, Element<Rows>>) {
     // Nothing is converted on the way out: what is not touched may be stored as it came.
-    if (hn::AllFalse(d, seen.doubtful)) {
-      store_pixels(d, op.select(seen.active, seen.rgb, p.rgb), rows, at, alpha);
-      return;
-    }
+    if (doubtful == 0) return store_pixels(d, select(seen.active, seen.rgb, p.rgb), rows, at, alpha);
   }
-  std::uint64_t doubtful = 0;
-  if constexpr (Operator::needs_more_digits) doubtful = lane_bits(d, seen.doubtful);
   Results<Element<Rows>> out;
   out.set(d, seen.rgb);
   store_some(exact, out, rows, at, lanes, active, doubtful);
+}
+
+// One vector of pixels at `at`.
+template <StageSet stages, Receptors receptors, class D, class Rows>
+HWY_INLINE void apply_vector(const PixelOperator<D, stages, receptors>& op, const WideConstants<double>& exact,
+                             const Rows& rows, std::size_t at, std::uint8_t* touched) {
+  const D d;
+  auto alpha = hn::Zero(hn::Rebind<Element<Rows>, D>());
+  const auto p = load_pixels<receptors>(d, rows, at, alpha);
+  typename PixelOperator<D, stages, receptors>::Seen seen;
+  if (!op(p, seen)) {
+    if (touched) std::memset(touched + at, 0, hn::Lanes(d));
+    return;
+  }
+  if (HWY_UNLIKELY(!hn::AllTrue(d, hn::AndNot(seen.doubtful, seen.active))))
+    return store_mixed(d, exact, p, seen, rows, at, alpha, touched);
+  if (touched) std::memset(touched + at, 1, hn::Lanes(d));
+  store_pixels(d, seen.rgb, rows, at, alpha);
+}
+
+// The same by code that asks which stages are on.
+template <typename T, class Rows>
+HWY_NOINLINE void apply_any(const WideConstants<T>& main, const WideConstants<double>& exact, const Rows& rows,
+                            std::size_t at, std::uint8_t* touched) {
+  apply_vector(PixelOperator<Tag<T>>(Tag<T>(), main), exact, rows, at, touched);
+}
+
+// Two vectors of pixels, side by side: either waits for its own results alone.
+template <StageSet stages, Receptors receptors, class D, class Rows>
+HWY_INLINE void apply_pair(const PixelOperator<lanes::PairTag<D>, stages, receptors>& op,
+                           const WideConstants<double>& exact, const Rows& rows, std::size_t at,
+                           std::uint8_t* touched) {
+  const D d;
+  const std::size_t second = at + hn::Lanes(d);
+  auto alpha_a = hn::Zero(hn::Rebind<Element<Rows>, D>()), alpha_b = alpha_a;
+  const auto a = load_pixels<receptors>(d, rows, at, alpha_a), b = load_pixels<receptors>(d, rows, second, alpha_b);
+  typename PixelOperator<lanes::PairTag<D>, stages, receptors>::Seen seen;
+  if (!op(paired(a, b), seen)) {
+    if (touched) std::memset(touched + at, 0, 2 * hn::Lanes(d));
+    return;
+  }
+  const auto plain = lanes::AndNot(seen.doubtful, seen.active);
+  const auto seen_a = first_of(seen), seen_b = second_of(seen);
+  if (HWY_UNLIKELY(!hn::AllTrue(d, hn::And(plain.a, plain.b)))) {
+    store_mixed(d, exact, a, seen_a, rows, at, alpha_a, touched);
+    return store_mixed(d, exact, b, seen_b, rows, second, alpha_b, touched);
+  }
+  if (touched) std::memset(touched + at, 1, 2 * hn::Lanes(d));
+  store_pixels(d, seen_a.rgb, rows, at, alpha_a);
+  store_pixels(d, seen_b.rgb, rows, second, alpha_b);
 }
 
 // Fewer pixels than a vector holds: through a padded copy, by the same arithmetic.
@@ -109,8 +140,7 @@ HWY_NOINLINE void apply_part(const WideConstants<T>& main, const WideConstants<d
   Padded<Rows> padded;
   padded.in(rows, at, count);
   std::uint8_t touched_copy[most_lanes] = {};
-  const Tag<T> d;
-  apply_vector(PixelOperator<Tag<T>>(d, main), exact, padded.rows, 0, touched_copy);
+  apply_any(main, exact, padded.rows, 0, touched_copy);
   padded.out(rows, at, count);
   if (touched) std::copy_n(touched_copy, count, touched + at);
 }
@@ -118,34 +148,48 @@ HWY_NOINLINE void apply_part(const WideConstants<T>& main, const WideConstants<d
 // Aligning costs two parts: from so many vectors on it is worth it.
 constexpr std::size_t worth_aligning = 64;
 
+template <class D>
+using PairOf = lanes::PairTag<D>;
+
+// The operator's stages hang on each other, a long chain; the kernel's few do not: there pairs are but more to hold.
+constexpr bool in_pairs(StageSet stages) { return stages != StageSet::any && stages != StageSet::kernel; }
+
 template <StageSet stages, Receptors receptors, typename T, class Rows>
 void apply_stages(const WideConstants<T>& main, const WideConstants<double>& exact, const Rows& rows,
                   std::uint8_t* touched) {
   using D = Tag<T>;
-  const PixelOperator<D, stages, receptors> op(D(), main);
   const std::size_t lanes = hn::Lanes(D());
   std::size_t at = 0;
   if (rows.count >= worth_aligning * lanes) at = before_aligned(rows, lanes);
   if (at) apply_part(main, exact, rows, 0, at, touched);
-  for (; at + lanes <= rows.count; at += lanes) apply_vector(op, exact, rows, at, touched);
-  if (at < rows.count) apply_part(main, exact, rows, at, rows.count - at, touched);
+  if constexpr (in_pairs(stages)) {
+    const PixelOperator<PairOf<D>, stages, receptors> op(PairOf<D>(), main);
+    for (; at + 2 * lanes <= rows.count; at += 2 * lanes) apply_pair(op, exact, rows, at, touched);
+  } else if constexpr (stages == StageSet::any) {
+    for (; at + lanes <= rows.count; at += lanes) apply_any(main, exact, rows, at, touched);
+  } else {
+    const PixelOperator<D, stages, receptors> op(D(), main);
+    for (; at + lanes <= rows.count; at += lanes) apply_vector(op, exact, rows, at, touched);
+  }
+  for (; at < rows.count; at += lanes)
+    apply_part(main, exact, rows, at, std::min(lanes, rows.count - at), touched);
 }
 
-// Code for all stages and for any there is for every layout; for the others where it pays for its size: in float, on
-// planes, which are what the image tool works on.
+// Code of their own have all stages in float, for every layout; double, and the kernel, as planes; and on planes of
+// float, which are what the image tool works on, what a plan leaves of the stages.
 template <typename T, class Rows>
 void apply_rgb(const WideConstants<T>& main, const WideConstants<double>& exact, const Rows& rows,
                std::uint8_t* touched) {
   constexpr Receptors absent = Receptors::absent;
   constexpr bool is_float = std::is_same_v<T, float>, planes = std::is_same_v<Rows, PixelRows>;
   const StageSet stages = main.numbers.stages();
-  if (stages == StageSet::all) return apply_stages<StageSet::all, absent>(main, exact, rows, touched);
-  if constexpr (std::is_same_v<Element<Rows>, float>)
+  if constexpr (is_float || planes)
+    if (stages == StageSet::all) return apply_stages<StageSet::all, absent>(main, exact, rows, touched);
+  if constexpr (planes || (is_float && std::is_same_v<Rows, RgbaRows<float>>))
     if (stages == StageSet::kernel) return apply_stages<StageSet::kernel, absent>(main, exact, rows, touched);
   if constexpr (is_float && planes) {
     if (stages == StageSet::grey) return apply_stages<StageSet::grey, absent>(main, exact, rows, touched);
     if (stages == StageSet::shift) return apply_stages<StageSet::shift, absent>(main, exact, rows, touched);
-    if (stages == StageSet::luminance) return apply_stages<StageSet::luminance, absent>(main, exact, rows, touched);
     if (stages == StageSet::chroma) return apply_stages<StageSet::chroma, absent>(main, exact, rows, touched);
   }
   apply_stages<StageSet::any, Receptors::maybe>(main, exact, rows, touched);

@@ -37,8 +37,7 @@ enum class StageSet {
   any,
   all,        ///< shift, mesopic luminance, chroma: what a look has by default
   grey,       ///< shift, photopic luminance, chroma: what the planner leaves of it where S/P ratios are white's
-  shift,      ///< one of them alone
-  luminance,
+  shift,      ///< one alone
   chroma,
   kernel      ///< safko2019
 };
@@ -91,7 +90,6 @@ StageSet BatchConstants<T>::stages() const noexcept {
   if (!local || (do_shift && !gamut_is_rgb)) return StageSet::any;
   if (do_shift && do_luminance && do_chroma) return mesopic_policy ? StageSet::all : StageSet::grey;
   if (do_shift && !do_luminance && !do_chroma) return StageSet::shift;
-  if (!do_shift && do_luminance && mesopic_policy && !do_chroma) return StageSet::luminance;
   if (!do_shift && !do_luminance && do_chroma) return StageSet::chroma;
   return StageSet::any;
 }
