@@ -69,7 +69,7 @@ HWY_NOINLINE void store_some(const WideConstants<double>& exact, const Results<E
 template <class D, class Rows>
 HWY_NOINLINE void store_mixed(D d, const WideConstants<double>& exact, const PixelVector<hn::Vec<D>>& p,
                               const SeenVector<hn::Vec<D>, hn::Mask<D>>& seen, const Rows& rows, std::size_t at,
-                              const ElementVector<D, Element<Rows>>& alpha, std::uint8_t* touched) {
+                              ElementVector<D, Element<Rows>> alpha, std::uint8_t* touched) {
   const std::size_t lanes = hn::Lanes(d);
   const std::uint64_t active = lane_bits(d, seen.active), doubtful = lane_bits(d, seen.doubtful);
   if (touched) mark(touched + at, lanes, active);
@@ -95,8 +95,12 @@ HWY_INLINE void apply_vector(const PixelOperator<D, stages, receptors>& op, cons
     if (touched) std::memset(touched + at, 0, hn::Lanes(d));
     return;
   }
-  if (HWY_UNLIKELY(!hn::AllTrue(d, hn::AndNot(seen.doubtful, seen.active))))
-    return store_mixed(d, exact, p, seen, rows, at, alpha, touched);
+  if (HWY_UNLIKELY(!hn::AllTrue(d, hn::AndNot(seen.doubtful, seen.active)))) {
+    // Copies, so that the originals need not lie in memory.
+    const auto p_there = p;
+    const auto seen_there = seen;
+    return store_mixed(d, exact, p_there, seen_there, rows, at, alpha, touched);
+  }
   if (touched) std::memset(touched + at, 1, hn::Lanes(d));
   store_pixels(d, seen.rgb, rows, at, alpha);
 }
@@ -123,14 +127,15 @@ HWY_INLINE void apply_pair(const PixelOperator<lanes::PairTag<D>, stages, recept
     return;
   }
   const auto plain = lanes::AndNot(seen.doubtful, seen.active);
-  const auto seen_a = first_of(seen), seen_b = second_of(seen);
   if (HWY_UNLIKELY(!hn::AllTrue(d, hn::And(plain.a, plain.b)))) {
-    store_mixed(d, exact, a, seen_a, rows, at, alpha_a, touched);
-    return store_mixed(d, exact, b, seen_b, rows, second, alpha_b, touched);
+    const auto a_there = a, b_there = b;
+    const auto seen_a = first_of(seen), seen_b = second_of(seen);
+    store_mixed(d, exact, a_there, seen_a, rows, at, alpha_a, touched);
+    return store_mixed(d, exact, b_there, seen_b, rows, second, alpha_b, touched);
   }
   if (touched) std::memset(touched + at, 1, 2 * hn::Lanes(d));
-  store_pixels(d, seen_a.rgb, rows, at, alpha_a);
-  store_pixels(d, seen_b.rgb, rows, second, alpha_b);
+  store_pixels(d, first_of(seen).rgb, rows, at, alpha_a);
+  store_pixels(d, second_of(seen).rgb, rows, second, alpha_b);
 }
 
 // Fewer pixels than a vector holds: through a padded copy, by the same arithmetic.

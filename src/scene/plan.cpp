@@ -45,7 +45,8 @@ EffectDecision decide_dark(std::string_view effect, double strength, const Darkn
 }
 
 EffectDecision decide_luminance(const AppearanceParameters& p, const Darkness& dark, const SceneStatistics* s) {
-  EffectDecision d = decide_dark("luminance", p.luminance == LuminancePolicy::none ? 0 : p.strength.luminance, dark);
+  const double strength = p.luminance == LuminancePolicy::none ? 0 : p.strength.all * p.strength.luminance;
+  EffectDecision d = decide_dark("luminance", strength, dark);
   if (!d.needed || !s || p.luminance != LuminancePolicy::mesopic || s->sp_deviation > sp_tolerance) return d;
   d.needed = false;
   d.share = 0;
