@@ -16,7 +16,7 @@ SCENES = [('courtyard', 3000, 'noon'), ('sunset', 60, 'after sunset'), ('interio
           ('studio', 4.9, 'dim studio'), ('city', 1, 'lit street'), ('forest', 0.1, 'edge of a street lamp'),
           ('night', 0.01, 'full moon'), ('night', 0.001, 'starlight')]
 PPD = 20
-ROUNDS = '9'
+ROUNDS = '5'
 
 HEAD = f"""# Effects that a scene calls for
 

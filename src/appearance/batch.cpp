@@ -67,7 +67,7 @@ HWY_NOINLINE void store_some(const WideConstants<double>& exact, const Results<E
 
 // Stores the results of one vector of pixels, `p` as they came in. Pixels that are not touched keep their bits.
 template <class D, class Rows>
-HWY_NOINLINE void store_mixed(D d, const WideConstants<double>& exact, const PixelVector<hn::Vec<D>>& p,
+HWY_INLINE void store_mixed(D d, const WideConstants<double>& exact, const PixelVector<hn::Vec<D>>& p,
                               const SeenVector<hn::Vec<D>, hn::Mask<D>>& seen, const Rows& rows, std::size_t at,
                               ElementVector<D, Element<Rows>> alpha, std::uint8_t* touched) {
   const std::size_t lanes = hn::Lanes(d);
@@ -96,10 +96,7 @@ HWY_INLINE void apply_vector(const PixelOperator<D, stages, receptors>& op, cons
     return;
   }
   if (HWY_UNLIKELY(!hn::AllTrue(d, hn::AndNot(seen.doubtful, seen.active)))) {
-    // Copies, so that the originals need not lie in memory.
-    const auto p_there = p;
-    const auto seen_there = seen;
-    return store_mixed(d, exact, p_there, seen_there, rows, at, alpha, touched);
+    return store_mixed(d, exact, p, seen, rows, at, alpha, touched);
   }
   if (touched) std::memset(touched + at, 1, hn::Lanes(d));
   store_pixels(d, seen.rgb, rows, at, alpha);
@@ -128,10 +125,8 @@ HWY_INLINE void apply_pair(const PixelOperator<lanes::PairTag<D>, stages, recept
   }
   const auto plain = lanes::AndNot(seen.doubtful, seen.active);
   if (HWY_UNLIKELY(!hn::AllTrue(d, hn::And(plain.a, plain.b)))) {
-    const auto a_there = a, b_there = b;
-    const auto seen_a = first_of(seen), seen_b = second_of(seen);
-    store_mixed(d, exact, a_there, seen_a, rows, at, alpha_a, touched);
-    return store_mixed(d, exact, b_there, seen_b, rows, second, alpha_b, touched);
+    store_mixed(d, exact, a, first_of(seen), rows, at, alpha_a, touched);
+    return store_mixed(d, exact, b, second_of(seen), rows, second, alpha_b, touched);
   }
   if (touched) std::memset(touched + at, 1, 2 * hn::Lanes(d));
   store_pixels(d, first_of(seen).rgb, rows, at, alpha_a);
