@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "bake/number_text.h"
+#include "image/error.h"
 
 namespace scotopic {
 namespace {
@@ -35,8 +36,18 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
+/// Readers keep floats: a number that is none there, or so small that their processors stumble over it, must
+/// not stand in a file.
+double plain(double value) {
+  const auto single = static_cast<float>(value);
+  if (!std::isfinite(single))
+    throw Error(ExitCode::check_failed, "", "a LUT of these numbers would hold values that are not finite");
+  return single != 0 && !std::isnormal(single) ? 0.0 : value;
+}
+
 void put_triplet(Buffer& out, const double* v, int decimals) {
-  put(out, "{} {} {}\n", fixed_text(v[0], decimals), fixed_text(v[1], decimals), fixed_text(v[2], decimals));
+  put(out, "{} {} {}\n", fixed_text(plain(v[0]), decimals), fixed_text(plain(v[1]), decimals),
+      fixed_text(plain(v[2]), decimals));
 }
 
 constexpr const char* depths = R"(inBitDepth="32f" outBitDepth="32f")";
@@ -58,8 +69,8 @@ struct NodeWriter {
     put(out, "  <Matrix {}>\n    <Array dim=\"3 {}\">\n", depths, offset ? 4 : 3);
     for (std::size_t i = 0; i < 3; ++i) {
       const auto& row = step.matrix[i];
-      put(out, "{} {} {}", number_text(row[0]), number_text(row[1]), number_text(row[2]));
-      if (offset) put(out, " {}", number_text(step.offset[i]));
+      put(out, "{} {} {}", number_text(plain(row[0])), number_text(plain(row[1])), number_text(plain(row[2])));
+      if (offset) put(out, " {}", number_text(plain(step.offset[i])));
       put(out, "\n");
     }
     put(out, "    </Array>\n  </Matrix>\n");
@@ -81,7 +92,7 @@ struct NodeWriter {
 
  private:
   void bound(const char* tag, double value) const {
-    if (std::isfinite(value)) put(out, "    <{0}>{1}</{0}>\n", tag, number_text(value));
+    if (std::isfinite(value)) put(out, "    <{0}>{1}</{0}>\n", tag, number_text(plain(value)));
   }
 };
 

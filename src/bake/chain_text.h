@@ -12,6 +12,9 @@ enum class ChainFormat {
   ctf,  ///< the same for Autodesk's older readers: Color Transform Format 2.0
 };
 
+// No number in these texts is subnormal as a float (it is 0 then); one that is not finite is
+// Error(check_failed).
+
 /// XML, the same bytes for the same chain, whatever the locale.
 std::string xml_text(const Chain& chain, ChainFormat format);
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <set>
 #include <sstream>
@@ -15,6 +14,8 @@
 #include "bake/ocio_chain.h"
 #include "bake/sha256.h"
 #include "image/error.h"
+#include "image/input_file.h"
+#include "image/lut_files.h"
 #include "image/names.h"
 
 namespace OCIO = OCIO_NAMESPACE;
@@ -93,7 +94,7 @@ Inspected inspect_look(const ColourConfig& config, const std::string& name) {
   const OCIO::ConstLookRcPtr look = config.ocio()->getLook(name.c_str());
   it.file = file_of(config.ocio(), look, it);
   if (it.file.empty() || !it.problems.empty()) return it;
-  const std::string text = text_of(it.file);
+  const std::string text = text_of(it.file, config.limits());
   it.spec = read_spec(text);
   it.stated = stated_max(text);
   if (!it.spec) return it;
@@ -106,17 +107,14 @@ Inspected inspect_look(const ColourConfig& config, const std::string& name) {
 
 }  // namespace
 
-std::string text_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (!in) throw Error(ExitCode::input, file, "cannot be read");
-  return text;
+std::string text_of(const std::string& file, const Limits& limits) {
+  return read_input_file(file, ExitCode::input, limits.lut, "--max-lut-size");
 }
 
 Inspected inspect_lut(const std::string& file, const ColourConfig& config) {
   Inspected it;
   it.name = it.file = file;
-  const std::string text = text_of(file);
+  const std::string text = text_of(file, config.limits());
   it.spec = read_spec(text);
   it.stated = stated_max(text);
   if (!it.spec) throw Error(ExitCode::config, file, "is no LUT that says which operator it was baked from");
@@ -157,6 +155,7 @@ OCIO::ConstCPUProcessorRcPtr look_processor(const ColourConfig& config, const st
   transform->setSrc(config.working_space().c_str());
   transform->setDst(config.working_space().c_str());
   transform->setLooks(look.c_str());
+  check_lut_files(config.ocio(), transform, config.limits());
   try {
     return cpu_processor(transform, config.ocio());
   } catch (const OCIO::Exception& e) {

@@ -15,6 +15,7 @@
 #include "cli/scene_plan.h"
 #include "cli/spectral_options.h"
 #include "cli/values.h"
+#include "image/acuity_rows.h"
 #include "image/apply_image.h"
 #include "image/non_finite.h"
 
@@ -124,6 +125,16 @@ bool has_receptors(const ImageLayout& layout) {
   });
 }
 
+/// Of the filter and of the rest, before either is allocated.
+void check_acuity_memory(const SpatialFilter& acuity, const PixelSource& source, const ImageLayout& layout,
+                         const Limits& limits) {
+  for (const LightPicture& light : layout.light) {
+    const Picture& picture = source.pictures()[light.index];
+    check_limit(source.file(), "bytes of memory planned", planned_bytes(picture) + acuity_bytes(acuity, picture),
+                limits.memory, "--max-memory");
+  }
+}
+
 int run_apply(const ApplyOptions& options) {
   const Console console(options.common);
   OperatorChoice choice = understand(options.appearance);
@@ -135,7 +146,7 @@ int run_apply(const ApplyOptions& options) {
   understand(options.icc, request);
   const SpectralOptions spectral = understand(options.bands, choice.illuminant, options.image.layer);
   (void)output_format(options.output);
-  const ColourConfig config = ColourConfig::in_force(options.image.config);
+  const ColourConfig config = ColourConfig::in_force(options.image.config, options.image.limits);
   check_spaces(request, config);
   check_view(request, config, console);
   set_primaries(choice, config);
@@ -164,6 +175,8 @@ int run_apply(const ApplyOptions& options) {
   parameters = plan.parameters;
   const std::unique_ptr<SpatialFilter> acuity =
       plan.acuity ? acuity_filter(acuity_choice, parameters, resolution, console) : nullptr;
+
+  if (acuity) check_acuity_memory(*acuity, *source, layout, options.image.limits);
 
   const ChosenWay way = settle(precision, parameters, has_receptors(layout), console);
   std::vector<Attribute> stamps = stamps_of(parameters, choice, layout);

@@ -10,10 +10,11 @@
 #include "bake/ladder.h"
 #include "bake/look_set.h"
 #include "bake/ocio1_twin.h"
+#include "bake/read_back.h"
 #include "cli/operator_options.h"
 #include "cli/program.h"
 #include "cli/values.h"
-#include "image/output_file.h"
+#include "image/output_set.h"
 
 namespace scotopic {
 namespace {
@@ -33,6 +34,7 @@ struct BakeOptions {
   std::string luts;
   std::string into;
   bool dry_run = false;
+  Limits limits;
   std::string beside;
   std::string max_error;
 };
@@ -125,12 +127,6 @@ std::string lut_text(const BakedLook& look, Format format) {
   return xml_text(look.chain, ChainFormat::clf);
 }
 
-void write_text(const std::string& path, const std::string& text) {
-  OutputFile file(path);
-  file.write(text.data(), text.size());
-  file.commit();
-}
-
 void check_error(const BakeOptions& o, const BakedLook& look) {
   if (o.max_error.empty()) return;
   const double limit = number_in("--max-error", o.max_error, 0, 1000, "a CIEDE2000 from 0 to 1000");
@@ -165,17 +161,26 @@ int bake_files(const BakeOptions& o, const ColourConfig& config, const Console& 
   const std::vector<double> adaptations = adaptations_of(o);
   const OperatorChoice choice = operator_choice(o.appearance);
   nlohmann::ordered_json results = nlohmann::ordered_json::array();
+  std::vector<std::string> lines;
+  OutputSet set;
+  std::vector<OutputFile*> files;
+  std::vector<LookSpec> specs;
   for (const double adaptation : adaptations) {
-    const LookSpec spec = spec_for(choice, o, config, adaptation);
-    refuse_linear(spec, format);
-    const std::string output = adaptations.size() > 1 ? numbered(o.output, adaptation) : o.output;
-    const BakedLook look = bake_look(spec, config, SCOTOPIC_VERSION);
-    check_error(o, look);
-    write_text(output, lut_text(look, format));
-    console.note(output + ": " + said(look));
-    results.push_back(json_of(look));
-    results.back()["output"] = output;
+    specs.push_back(spec_for(choice, o, config, adaptation));
+    refuse_linear(specs.back(), format);
+    files.push_back(&set.open(adaptations.size() > 1 ? numbered(o.output, adaptation) : o.output));
   }
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    const BakedLook look = bake_look(specs[i], config, SCOTOPIC_VERSION);
+    check_error(o, look);
+    OutputSet::write(*files[i], lut_text(look, format));
+    require_read_back(files[i]->open_name(), files[i]->path(), look.chain);
+    lines.push_back(files[i]->path() + ": " + said(look));
+    results.push_back(json_of(look));
+    results.back()["output"] = files[i]->path();
+  }
+  set.commit();
+  for (const std::string& line : lines) console.note(line);
   console.result({{"luts", results}});
   return static_cast<int>(ExitCode::done);
 }
@@ -217,14 +222,22 @@ bool has_whole_ladder(const std::vector<LookSpec>& specs) {
   return true;
 }
 
-void make_folder(const std::string& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error) throw Error(ExitCode::output, path, "cannot be made: " + error.message());
+/// LUTs are read back before any of them takes its place: the baked ones against what was measured.
+void add_luts(OutputSet& files, const std::string& folder, const LookSet& set) {
+  for (std::size_t i = 0; i < set.luts.size(); ++i) {
+    const OutputFile& file = files.add(folder + "/" + set.luts[i].name, set.luts[i].text);
+    if (i < set.looks.size())
+      require_read_back(file.open_name(), file.path(), set.looks[i].chain);
+    else
+      require_lut(file.open_name(), file.path());
+  }
 }
 
 int bake_config(const BakeOptions& o, const ColourConfig& config, const Console& console) {
   const std::vector<LookSpec> specs = specs_for_config(o, config);
+  const std::string luts = o.luts.empty() ? o.new_config + "/luts" : o.luts;
+  require_writable_folder(o.new_config);
+  require_writable_folder(luts);
   LookSet set = bake_set(specs, config, SCOTOPIC_VERSION, has_whole_ladder(specs));
   add_highlights(set, SCOTOPIC_VERSION);
   for (const BakedLook& look : set.looks) {
@@ -234,14 +247,16 @@ int bake_config(const BakeOptions& o, const ColourConfig& config, const Console&
   const std::string text = look_config_text(set);
   const Ocio1Twin twin = make_ocio1_twin(specs, lut_search_path);
   set.luts.insert(set.luts.end(), twin.luts.begin(), twin.luts.end());
-  const std::string luts = o.luts.empty() ? o.new_config + "/luts" : o.luts;
-  make_folder(o.new_config);
-  make_folder(luts);
+  require_config(text, o.new_config + "/config.ocio");
+  OutputSet files;
+  files.make_folder(o.new_config);
+  files.make_folder(luts);
   // The config last: it is never there without its files.
-  for (const TextFile& lut : set.luts) write_text(luts + "/" + lut.name, lut.text);
-  write_text(luts + "/MANIFEST", manifest_text(set, SCOTOPIC_VERSION, command_of(o)));
-  write_text(o.new_config + "/config_ocio1.ocio", twin.config);
-  write_text(o.new_config + "/config.ocio", text);
+  add_luts(files, luts, set);
+  files.add(luts + "/MANIFEST", manifest_text(set, SCOTOPIC_VERSION, command_of(o)));
+  files.add(o.new_config + "/config_ocio1.ocio", twin.config);
+  files.add(o.new_config + "/config.ocio", text);
+  files.commit();
   nlohmann::ordered_json results = nlohmann::ordered_json::array();
   for (const BakedLook& look : set.looks) results.push_back(json_of(look));
   console.result({{"config", o.new_config + "/config.ocio"}, {"looks", results}});
@@ -249,18 +264,19 @@ int bake_config(const BakeOptions& o, const ColourConfig& config, const Console&
 }
 
 /// The config as it was stays beside the new one; an older such copy is never overwritten.
-void keep_original(const std::string& file, const std::string& text) {
+void keep_original(OutputSet& files, const std::string& file, const std::string& text) {
   const std::string copy = file + ".before_scotopic";
-  if (!fs::exists(copy)) write_text(copy, text);
+  if (!fs::exists(copy)) files.add(copy, text);
 }
 
 int bake_into(const BakeOptions& o, const Console& console) {
-  const ColourConfig config = ColourConfig::from_file(o.into);
+  const ColourConfig config = ColourConfig::from_file(o.into, o.limits);
   const std::vector<LookSpec> specs = specs_for_config(o, config);
+  const std::string original = text_of(o.into);
+  if (!o.dry_run) require_writable_folder(fs::absolute(o.into).parent_path().string());
   const LookSet set = bake_set(specs, config, SCOTOPIC_VERSION, false);
   for (const BakedLook& look : set.looks) check_error(o, look);
   const MergedConfig merged = merge_looks(config, set.entries);
-  const std::string original = text_of(o.into);
   if (merged.rewritten)
     console.note(o.into + ": its layout is unusual: OpenColorIO writes the config anew, comments are lost");
   if (o.dry_run) {
@@ -268,11 +284,16 @@ int bake_into(const BakeOptions& o, const Console& console) {
     for (const TextFile& lut : set.luts) console.note("would write " + merged.lut_folder + "/" + lut.name);
     return static_cast<int>(ExitCode::done);
   }
-  make_folder(merged.lut_folder);
-  for (const TextFile& lut : set.luts) write_text(merged.lut_folder + "/" + lut.name, lut.text);
-  write_text(merged.lut_folder + "/MANIFEST", manifest_text(set, SCOTOPIC_VERSION, command_of(o)));
-  keep_original(o.into, original);
-  write_text(o.into, merged.text);
+  require_config(merged.text, o.into);
+  OutputSet files;
+  files.make_folder(merged.lut_folder);
+  add_luts(files, merged.lut_folder, set);
+  files.add(merged.lut_folder + "/MANIFEST", manifest_text(set, SCOTOPIC_VERSION, command_of(o)));
+  keep_original(files, o.into, original);
+  files.add(o.into, merged.text);
+  if (text_of(o.into) != original)
+    throw Error(ExitCode::config, o.into, "was changed by another program meanwhile: run this again");
+  files.commit();
   for (const BakedLook& look : set.looks) console.note(said(look));
   console.result({{"config", o.into}, {"luts", merged.lut_folder}, {"looks", set.looks.size()}});
   return static_cast<int>(ExitCode::done);
@@ -297,7 +318,7 @@ int run_bake(const BakeOptions& o) {
   if (!o.new_config.empty()) return bake_config(o, ColourConfig::own(), console);
   if (!o.into.empty()) return bake_into(o, console);
   (void)format_of(o);
-  return bake_files(o, ColourConfig::in_force(o.colour_config), console);
+  return bake_files(o, ColourConfig::in_force(o.colour_config, o.limits), console);
 }
 
 }  // namespace
@@ -336,6 +357,7 @@ void add_bake(CLI::App& program, Invocation& invocation) {
                   "Luminance the eye is adapted to; repeatable; or ladder: all that ship")
       ->type_name("CDM2")
       ->group("What is seen");
+  add_config_limits(verb, o.limits);
   add_common_options(verb, o.common);
   on_command_line(verb, invocation, options, run_bake);
 }

@@ -53,6 +53,7 @@ OnImage compare_on_image(const CheckOptions& o, const ColourConfig& config, cons
       comparison.add(in, exact(spec.parameters, in), got);
     }
   }
+  source->require_unchanged();
   const BakeError error = comparison.result();
   const auto width = static_cast<std::size_t>(picture.data.width());
   return {error, fmt::format(", pixel {} {}", error.worst_index % width, error.worst_index / width)};
@@ -148,7 +149,7 @@ int run_check(const CheckOptions& o) {
     limit = number_in("--max-error", o.max_error, 0, 1000, "a CIEDE2000 from 0 to 1000");
   check_usage(o, is_config);
   const ColourConfig config =
-      is_config ? ColourConfig::from_file(o.bake) : ColourConfig::in_force(o.image.config);
+      is_config ? ColourConfig::from_file(o.bake, o.image.limits) : ColourConfig::in_force(o.image.config, o.image.limits);
   std::vector<Inspected> all = inspect(o, config, is_config);
   std::string where;
   if (!o.picture.empty())

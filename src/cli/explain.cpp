@@ -96,7 +96,7 @@ bool is_config(const std::string& file) { return file.size() > 5 && file.rfind("
 
 int run_explain_config(const ExplainOptions& options, const Console& console) {
   nlohmann::ordered_json looks = nlohmann::ordered_json::array();
-  for (const ExplainedLook& look : explain_looks(ColourConfig::from_file(options.input))) {
+  for (const ExplainedLook& look : explain_looks(ColourConfig::from_file(options.input, options.image.limits))) {
     if (!console.json()) fmt::print("{}\n  does {}\n", look.name, look.does);
     if (!console.json() && !look.description.empty()) fmt::print("  {}\n", look.description);
     looks.push_back({{"name", look.name}, {"does", look.does}, {"description", look.description}});
@@ -112,7 +112,7 @@ int run_explain(const ExplainOptions& options) {
   const AcuityChoice acuity = understand(options.acuity);
   const ImageRequest request = understand(options.image);
   const SpectralOptions spectral = understand(options.bands, choice.illuminant, options.image.layer);
-  const ColourConfig config = ColourConfig::in_force(options.image.config);
+  const ColourConfig config = ColourConfig::in_force(options.image.config, options.image.limits);
   check_spaces(request, config);
   set_primaries(choice, config);
   set_threads(options.common.threads);

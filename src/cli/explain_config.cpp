@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "image/lut_files.h"
+
 namespace scotopic {
 namespace {
 
@@ -40,6 +42,7 @@ std::vector<ExplainedLook> explain_looks(const ColourConfig& config) {
     transform->setSrc(space.c_str());
     transform->setDst(space.c_str());
     transform->setLooks(name);
+    check_lut_files(ocio, transform, config.limits());
     try {
       look.does = kind_of(ocio->getProcessor(transform));
     } catch (const OCIO::Exception& error) {

@@ -4,6 +4,19 @@
 
 namespace scotopic {
 
+namespace {
+
+void add_limit(CLI::App& verb, const char* name, std::int64_t& value, const char* text) {
+  verb.add_option(name, value, text)->check(CLI::PositiveNumber)->group("Limits")->capture_default_str();
+}
+
+}  // namespace
+
+void add_config_limits(CLI::App& verb, Limits& limits) {
+  add_limit(verb, "--max-config-size", limits.config, "Bytes of a config");
+  add_limit(verb, "--max-lut-size", limits.lut, "Bytes of a LUT");
+}
+
 void add_input_options(CLI::App& verb, ImageOptions& o) {
   const auto add = [&](const char* name, std::string& value, const char* text, const char* kind) {
     verb.add_option(name, value, text)->type_name(kind)->group("Input");
@@ -13,12 +26,14 @@ void add_input_options(CLI::App& verb, ImageOptions& o) {
       "Of the input; else the file's chromaticities, else the config's file rules", "NAME");
   add("--layer", o.layer, "Which layer or part holds the colour", "NAME");
   const auto limit = [&](const char* name, std::int64_t& value, const char* text) {
-    verb.add_option(name, value, text)->check(CLI::PositiveNumber)->group("Limits")->capture_default_str();
+    add_limit(verb, name, value, text);
   };
   limit("--max-side", o.limits.side, "Pixels of a row or column");
   limit("--max-pixels", o.limits.pixels, "Pixels of a picture");
   limit("--max-channels", o.limits.channels, "Channels of a picture");
-  limit("--max-band-bytes", o.limits.band_bytes, "Memory of one band of rows");
+  limit("--max-bands", o.limits.bands, "Bands of a spectrum");
+  limit("--max-memory", o.limits.memory, "Bytes planned for pixels on their way");
+  add_config_limits(verb, o.limits);
 }
 
 void add_output_options(CLI::App& verb, ImageOptions& o) {

@@ -22,6 +22,8 @@ struct ImageOptions {
 
 /// Of the input: --config, --colorspace, --layer, --max-...
 void add_input_options(CLI::App& verb, ImageOptions& options);
+/// Of configs and LUTs alone: --max-config-size, --max-lut-size. Part of add_input_options().
+void add_config_limits(CLI::App& verb, Limits& limits);
 /// Of the output: --output-colorspace, -d, --exposure.
 void add_output_options(CLI::App& verb, ImageOptions& options);
 

@@ -67,7 +67,7 @@ int run_lmsr(const LmsrOptions& options) {
   if (!options.white_luminance.empty()) (void)luminance_value("--white-luminance", options.white_luminance);
   if (output_format(options.output) != "openexr")
     throw Error(ExitCode::usage, options.output, "receptor signals are written as OpenEXR only");
-  const ColourConfig config = ColourConfig::in_force(options.image.config);
+  const ColourConfig config = ColourConfig::in_force(options.image.config, options.image.limits);
   check_spaces(request, config);
   set_threads(options.common.threads);
   OutputFile file(options.output);

@@ -1,14 +1,14 @@
 #include "cli/program.h"
 
 #include <algorithm>
-#include <clocale>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <new>
 #include <string_view>
 
+#include "cli/process.h"
 #include "image/names.h"
-#include "image/output_file.h"
 
 namespace scotopic {
 namespace {
@@ -46,10 +46,16 @@ bool asks_for_json(int argc, char** argv) {
   return std::any_of(argv, argv + argc, [](const char* a) { return std::string_view(a) == "--json"; });
 }
 
+/// What a program writes and does not get rid of is not said.
+void check_stdout() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw Error(ExitCode::output, "standard output", "cannot be written");
+}
+
 int run_verb(const Invocation& invocation, bool json) {
   try {
     const int code = invocation.run();
-    if (std::fflush(stdout) != 0) throw Error(ExitCode::output, "standard output", "cannot be written");
+    check_stdout();
     return code;
   } catch (const Error& error) {
     return report(error, json);
@@ -60,23 +66,28 @@ int run_verb(const Invocation& invocation, bool json) {
   }
 }
 
+/// Help or the version, on stdout.
+int print_wish(const CLI::App& program, const CLI::Success& wish, bool json) {
+  const int code = program.exit(wish);
+  if (std::cout.flush().good()) return code;
+  return report(Error(ExitCode::output, "standard output", "cannot be written"), json);
+}
+
 }  // namespace
 
 int run_program(int argc, char** argv, const std::vector<AddVerb>& verbs) {
-  // Numbers in configs, LUTs and metadata have a point, wherever the program runs.
-  std::setlocale(LC_ALL, "C");
-  remove_unfinished_files_on_signals();
+  const bool json = asks_for_json(argc, argv);
+  prepare_process(json);
   CLI::App program("Shows images as the dark-adapted eye sees them: rods, cones, and the way between.",
                    "scotopic");
   program.set_version_flag("--version", "scotopic " SCOTOPIC_VERSION);
   program.require_subcommand(1);
   Invocation invocation;
   for (const AddVerb add : verbs) add(program, invocation);
-  const bool json = asks_for_json(argc, argv);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& wish) {
-    return program.exit(wish);
+    return print_wish(program, wish, json);
   } catch (const CLI::ParseError& error) {
     return report(usage_error(program, error, argc, argv), json);
   }

@@ -96,6 +96,9 @@ Subject subject_of_image(const TimeOptions& options, OperatorChoice choice, cons
                          const Console& console) {
   const std::unique_ptr<PixelSource> source = open_source(options.input, options.image.limits);
   const ImageLayout layout = plan_layout(*source, "none.exr", config, understand(options.image));
+  const Window& w = source->pictures()[layout.light.front().index].data;
+  check_limit(source->file(), "bytes of memory planned", 12 * std::int64_t{w.width()} * w.height(),
+              options.image.limits.memory, "--max-memory");
   const KnownNumbers known = known_numbers(choice, *source, layout, console);
   double log_average = 0;
   if (needs_measurement(known, source->file()))
@@ -149,9 +152,12 @@ int run_time(const TimeOptions& options) {
       static_cast<int>(number_in("--rounds", options.rounds, 1, 1000, "a count of 1 to 1000"));
   std::optional<OutputFile> plot;
   if (!options.plot.empty()) plot.emplace(options.plot);
-  const ColourConfig config = ColourConfig::in_force(options.image.config);
+  const ColourConfig config = ColourConfig::in_force(options.image.config, options.image.limits);
   set_primaries(choice, config);
   set_threads(options.common.threads);
+  // A picture to restore from, and four at work.
+  check_limit("", "bytes of memory planned", static_cast<std::int64_t>(pixels) * 5 * 12, options.image.limits.memory,
+              "--max-memory");
   Subject subject =
       options.input.empty() ? subject_by_formula(choice) : subject_of_image(options, choice, config, console);
   const TimedPicture picture = repeated(subject.picture, pixels);

@@ -7,6 +7,16 @@
 
 namespace scotopic {
 
+std::int64_t acuity_bytes(const SpatialFilter& filter, const Picture& picture) {
+  const std::int64_t rows = band_rows(picture);
+  // Bands that wait until the halo below them has come, the one that comes and the one worked out.
+  const std::int64_t waiting = filter.halo() + 2 * rows;
+  constexpr std::int64_t planes = 3 * sizeof(float), rest = sizeof(float) + 1;  // alpha, touched
+  const std::int64_t of_file = static_cast<std::int64_t>(row_bytes(picture));
+  return (filter.halo() + waiting) * planes * picture.data.width() + rows * planes * picture.data.width() +
+         waiting * (rest * picture.data.width() + of_file);
+}
+
 AcuityRows::AcuityRows(const SpatialFilter& filter, const Window& data, bool descending, bool alpha)
     : filter_(filter), data_(data), descending_(descending), alpha_(alpha) {}
 

@@ -20,6 +20,9 @@ struct WaitingBand {
   std::vector<std::uint8_t> touched;  ///< rows * width
 };
 
+/// Bytes that AcuityRows will keep of a picture: planned before any is allocated.
+std::int64_t acuity_bytes(const SpatialFilter& filter, const Picture& picture);
+
 /// Rows of one picture, from its top or (descending) its bottom. Holds the rows of the bands that wait and of
 /// the halo: memory does not grow with the height.
 class AcuityRows {

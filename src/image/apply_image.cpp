@@ -281,6 +281,7 @@ SceneStatistics measure_image(PixelSource& source, const ImageLayout& layout, co
     });
     before += width * static_cast<std::uint64_t>(picture.data.height());
   }
+  source.require_unchanged();
   return all;
 }
 
@@ -351,6 +352,8 @@ void apply_image(PixelSource& source, const ImageLayout& layout, const ColourCon
     });
   }
   sink->finish();
+  source.require_unchanged();
+  file.commit();
 }
 
 }  // namespace scotopic

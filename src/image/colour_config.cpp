@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <new>
 
 #include "image/base_config.h"
 #include "image/error.h"
+#include "image/input_file.h"
+#include "image/lut_files.h"
 #include "image/names.h"
 
 namespace OCIO = OCIO_NAMESPACE;
@@ -62,8 +65,8 @@ void RowConverter::apply(float* r, float* g, float* b, std::size_t count) const 
   }
 }
 
-ColourConfig::ColourConfig(OCIO::ConstConfigRcPtr config, std::string file)
-    : config_(std::move(config)), file_(std::move(file)) {
+ColourConfig::ColourConfig(OCIO::ConstConfigRcPtr config, std::string file, const Limits& limits)
+    : config_(std::move(config)), file_(std::move(file)), limits_(limits) {
   try {
     config_->validate();
   } catch (const OCIO::Exception& e) {
@@ -77,32 +80,42 @@ ColourConfig::ColourConfig(OCIO::ConstConfigRcPtr config, std::string file)
 
 ColourConfig ColourConfig::own() {
   silence_ocio();
-  return ColourConfig(make_base_config(), "");
+  return ColourConfig(make_base_config(), "", {});
 }
 
-ColourConfig ColourConfig::from_file(const std::string& file) {
+ColourConfig ColourConfig::from_file(const std::string& file, const Limits& limits) {
   silence_ocio();
+  // Younger OpenColorIO takes names of configs that it brings itself.
+  if (file.rfind("ocio://", 0) != 0) (void)check_input_file(file, ExitCode::config, limits.config, "--max-config-size");
   OCIO::ConstConfigRcPtr config;
   try {
     config = OCIO::Config::CreateFromFile(file.c_str());
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& e) {
     throw Error(ExitCode::config, file, "not a colour config that can be read: " + one_line(e.what()));
   }
-  return ColourConfig(std::move(config), file);
+  return ColourConfig(std::move(config), file, limits);
 }
 
-ColourConfig ColourConfig::in_force(const std::string& file) {
-  if (!file.empty()) return from_file(file);
+ColourConfig ColourConfig::in_force(const std::string& file, const Limits& limits) {
+  if (!file.empty()) return from_file(file, limits);
   const char* environment = std::getenv("OCIO");
-  return environment && *environment ? from_file(environment) : own();
+  return environment && *environment ? from_file(environment, limits) : own();
 }
 
 void ColourConfig::fail(const std::string& what) const { throw Error(ExitCode::config, file_, what); }
 
 OCIO::ConstCPUProcessorRcPtr ColourConfig::processor(const std::string& from, const std::string& to) const {
+  const OCIO::ColorSpaceTransformRcPtr both = OCIO::ColorSpaceTransform::Create();
+  both->setSrc(from.c_str());
+  both->setDst(to.c_str());
+  check_lut_files(config_, both, limits_);
   try {
     return config_->getProcessor(from.c_str(), to.c_str())
         ->getOptimizedCPUProcessor(OCIO::BIT_DEPTH_F32, OCIO::BIT_DEPTH_F32, optimisation);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& e) {
     fail("no way from colour space '" + from + "' to '" + to + "': " + one_line(e.what()));
   }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "image/icc_profile.h"
+#include "image/limits.h"
 #include "image/primaries.h"
 #include "kernel/matrix3.h"
 
@@ -57,13 +58,16 @@ class RowConverter {
 class ColourConfig {
  public:
   /// `file` if not empty, else the file $OCIO names, else the project's own config.
-  static ColourConfig in_force(const std::string& file);
+  /// Configs and LUTs larger than `limits` are Error(limit).
+  static ColourConfig in_force(const std::string& file, const Limits& limits = {});
   static ColourConfig own();
-  static ColourConfig from_file(const std::string& file);
+  static ColourConfig from_file(const std::string& file, const Limits& limits = {});
 
   const OCIO_NAMESPACE::ConstConfigRcPtr& ocio() const noexcept { return config_; }
   /// The config's file; empty for the project's own.
   const std::string& file() const noexcept { return file_; }
+  /// That hold for its LUT files.
+  const Limits& limits() const noexcept { return limits_; }
   /// The name of the space in role scene_linear: the one the operator works in.
   const std::string& working_space() const noexcept { return working_space_; }
   /// CIE XYZ (D65-adapted) from working RGB. Where OCIO's matrix is that of a known RGB space to 1e-4, the
@@ -98,7 +102,7 @@ class ColourConfig {
   RowConverter from_working(const ColourSpace& to) const;
 
  private:
-  ColourConfig(OCIO_NAMESPACE::ConstConfigRcPtr config, std::string file);
+  ColourConfig(OCIO_NAMESPACE::ConstConfigRcPtr config, std::string file, const Limits& limits);
   void find_xyz();
   std::optional<Matrix3<double>> linear_matrix(const std::string& from, const std::string& to) const;
   OCIO_NAMESPACE::ConstCPUProcessorRcPtr processor(const std::string& from, const std::string& to) const;
@@ -109,6 +113,7 @@ class ColourConfig {
 
   OCIO_NAMESPACE::ConstConfigRcPtr config_;
   std::string file_;
+  Limits limits_;
   std::string working_space_;
   Matrix3<double> xyz_from_working_ = identity3<double>();
   std::string working_gamut_;

@@ -17,6 +17,7 @@
 #include <OpenEXR/ImfTiledOutputPart.h>
 
 #include <map>
+#include <new>
 #include <set>
 
 #include "image/error.h"
@@ -155,7 +156,6 @@ class ExrSink : public PixelSink {
 
   void finish() override {
     guarded([&] { exr_.reset(); });  // writes the chunk tables
-    file_.commit();
   }
 
  private:
@@ -201,6 +201,8 @@ class ExrSink : public PixelSink {
     try {
       action();
     } catch (const Error&) {
+      throw;
+    } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& e) {
       file_.check();

@@ -17,8 +17,10 @@
 #include <cmath>
 #include <cstdint>
 #include <exception>
+#include <new>
 
 #include "image/error.h"
+#include "image/exr_headers.h"
 
 namespace scotopic {
 namespace {
@@ -61,8 +63,12 @@ Window window_of(const Imath::Box2i& box) {
 }  // namespace
 
 int rows_compressed_together(const Imf::Header& header) {
-  if (header.hasTileDescription()) return static_cast<int>(header.tileDescription().ySize);
-  switch (header.compression()) {
+  return header.hasTileDescription() ? static_cast<int>(header.tileDescription().ySize)
+                                     : rows_compressed_together(header.compression());
+}
+
+int rows_compressed_together(Imf::Compression compression) {
+  switch (compression) {
     case Imf::ZIP_COMPRESSION:
     case Imf::PXR24_COMPRESSION:
       return 16;
@@ -107,6 +113,8 @@ Imf::FrameBuffer frame_buffer(const std::vector<Channel>& channels, const Band& 
 
 ExrSource::ExrSource(const std::string& file, const Limits& limits) : PixelSource(file, "openexr") {
   try {
+    watch(file);
+    check_exr_headers(file, limits);
     const auto side = static_cast<int>(std::min<std::int64_t>(limits.side, INT32_MAX));
     Imf::Header::setMaxImageSize(side, side);
     Imf::Header::setMaxTileSize(side, side);
@@ -117,6 +125,8 @@ ExrSource::ExrSource(const std::string& file, const Limits& limits) : PixelSourc
       if (!exr_->partComplete(part)) fail("is truncated: it was not written to its end");
     }
   } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
     fail(std::string("is not a valid OpenEXR file: ") + e.what());
@@ -182,6 +192,8 @@ void ExrSource::read(std::size_t index, int y0, int rows, Band& band) {
       read_tiles(picture, frame, y0, rows);
     else
       read_scanlines(picture, frame, y0, rows);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& e) {
     fail(std::string("is truncated or damaged: ") + e.what());
   }

@@ -36,6 +36,8 @@ class ExrSource : public PixelSource {
 
 /// Rows that are decompressed at once: of a chunk of scanlines, or of a tile.
 int rows_compressed_together(const Imf::Header& header);
+/// Of scanlines. 1 for a compression that OpenEXR 3.1 does not know.
+int rows_compressed_together(Imf::Compression compression);
 
 /// The file's channel type; uint is uint32.
 PixelType pixel_type(Imf::PixelType type);

@@ -139,6 +139,8 @@ void write_lmsr(PixelSource& source, const ImageLayout& layout, const ColourConf
     });
   }
   sink->finish();
+  source.require_unchanged();
+  file.commit();
 }
 
 }  // namespace scotopic

@@ -119,7 +119,6 @@ class OiioSink : public PixelSink {
     file_.check();
     if (!closed) fail(output_->geterror());
     output_.reset();
-    file_.commit();
   }
 
  private:

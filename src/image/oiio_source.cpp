@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 
 namespace scotopic {
@@ -43,6 +44,14 @@ class StderrHeld {
   int nothing_;
 };
 
+/// What OpenImageIO's readers keep: a tile, or the rows of a strip.
+std::int64_t bytes_held_by_oiio(const OIIO::ImageSpec& spec) {
+  const auto pixel = static_cast<std::int64_t>(spec.pixel_bytes(true));
+  const std::int64_t strip = std::clamp(spec.get_int_attribute("tiff:RowsPerStrip", 1), 1, std::max(1, spec.height));
+  if (spec.tile_width == 0) return pixel * spec.width * strip;
+  return pixel * spec.tile_width * std::max(1, spec.tile_height);
+}
+
 /// Grey images name their channel in many ways; EXR's is Y.
 void name_grey(std::vector<Channel>& channels) {
   const bool alpha = channels.size() == 2 && channels[1].name == "A";
@@ -58,6 +67,7 @@ OiioSource::OiioSource(const std::string& file, const std::string& format, const
   hints.attribute("oiio:UnassociatedAlpha", 1);  // alpha as the file has it
   OIIO::ImageSpec spec;
   const StderrHeld held;
+  watch(file);
   if (!input_->open(file, spec, hints)) fail("is not a valid " + format + " file: " + input_->geterror());
   for (int page = 0; input_->seek_subimage(page, 0); ++page) {
     add_picture(page, input_->spec());
@@ -80,6 +90,7 @@ void OiioSource::add_picture(int page, const OIIO::ImageSpec& spec) {
   name_grey(picture.channels);
   // Strips need not be met: OpenImageIO buffers them.
   picture.chunk_rows = spec.tile_width ? spec.tile_height : 1;
+  picture.library_bytes = bytes_held_by_oiio(spec);
   picture.unassociated_alpha = spec.get_int_attribute("oiio:UnassociatedAlpha", 0) != 0;
   picture.white_luminance = float_attribute(spec, "whiteLuminance");
   pictures_.push_back(picture);

@@ -1,6 +1,4 @@
 // Which reader a file is for: told by its first bytes.
-#include <sys/stat.h>
-
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -9,6 +7,7 @@
 
 #include "image/error.h"
 #include "image/formats_module.h"
+#include "image/input_file.h"
 #include "image/pixel_source.h"
 
 namespace scotopic {
@@ -32,14 +31,12 @@ constexpr std::array<Magic, 9> magics = {{{"\x76\x2f\x31\x01"sv, "openexr"},
                                           {"#?RGBE"sv, "hdr"}}};
 
 std::string format_of(const std::string& file) {
-  struct stat info = {};
-  if (stat(file.c_str(), &info) != 0) throw Error(ExitCode::input, file, std::strerror(errno));
-  if (S_ISDIR(info.st_mode)) throw Error(ExitCode::input, file, "is a folder, not an image");
-  if (!S_ISREG(info.st_mode)) throw Error(ExitCode::input, file, "is not a regular file");
+  (void)check_input_file(file, ExitCode::input, INT64_MAX, "");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw Error(ExitCode::input, file, std::string("cannot be read: ") + std::strerror(errno));
   std::array<char, 16> start{};
   stream.read(start.data(), start.size());
+  if (stream.bad()) throw Error(ExitCode::input, file, std::string("cannot be read: ") + std::strerror(errno));
   const std::string_view head(start.data(), static_cast<std::size_t>(stream.gcount()));
   for (const Magic& magic : magics)
     if (head.substr(0, magic.bytes.size()) == magic.bytes) return magic.format;

@@ -1,17 +1,24 @@
-// A file that is there whole, or not at all: written beside its target, renamed when complete.
+// A file that is there whole, or not at all: written beside its target, put in its place when complete.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "image/unfinished_files.h"
 
 namespace scotopic {
 
 /// Opens a nameless file (O_TMPFILE, else a hidden temporary) in the target's folder; commit() checks, syncs
 /// and puts it in the target's place in one step; without commit() nothing stays. The target may be a file
-/// being read. A target that is a folder or a device is refused; a symbolic link is followed, the mode of an
-/// existing file kept. Throws Error(ExitCode::output). Not for use by two threads at once.
+/// being read. A target that is a folder, a device or write-protected is refused; a symbolic link is followed,
+/// the mode of an existing file kept. Throws Error(ExitCode::output). Not for use by two threads at once.
+///
+/// Only a kill that no program can catch, between two system calls of publish(), leaves a hidden temporary;
+/// the next OutputFile of that target removes it (it is locked while its program lives).
 class OutputFile {
  public:
   explicit OutputFile(const std::string& path);
@@ -21,7 +28,8 @@ class OutputFile {
 
   const std::string& path() const noexcept { return path_; }
 
-  /// A name under which a library that takes only names can open and write the file, instead of write().
+  /// A name under which a library that takes only names can open and write the file, instead of write(), or
+  /// read what was completed.
   std::string open_name() const;
 
   /// All of it, or false; then the reason is kept and every later call fails too.
@@ -34,14 +42,23 @@ class OutputFile {
 
   /// Throws if any write failed.
   void check() const;
-  /// Throws, and leaves the target as it was, unless every byte is safely in place.
-  void commit();
+
+  /// Throws unless every byte is on the disk. The target is as it was.
+  void complete();
+  /// Puts the completed file in its place, in one step; throws, and leaves the target as it was, if it cannot.
+  void publish();
+  void commit() {
+    complete();
+    publish();
+  }
 
  private:
   bool flush() noexcept;
   [[noreturn]] void fail(int error) const;
   void open_temporary();
-  void publish();
+  int make_temporary(int attempt);
+  int put_in_place();
+  void lock() const noexcept;
 
   std::string path_;       // as the user wrote it
   std::string target_;     // links followed
@@ -53,11 +70,14 @@ class OutputFile {
   std::int64_t size_ = 0;
   std::int64_t buffer_start_ = 0;
   std::vector<std::byte> buffer_;
-  int registered_ = -1;
+  std::optional<UnfinishedName> registered_;
 };
 
-/// From now on SIGINT, SIGTERM, SIGHUP, SIGPIPE and SIGXFSZ remove unfinished files and end the program with
-/// 128 + their number.
-void remove_unfinished_files_on_signals();
+/// How many files publish() has put in place since the program began.
+int files_in_place() noexcept;
+
+/// Throws Error(output) for `path` where a file of that name could not be made for want of a folder that can
+/// be written to. A folder that is not there yet is taken to be made: then the one above counts.
+void require_writable_folder(const std::string& path);
 
 }  // namespace scotopic

@@ -127,6 +127,11 @@ int band_rows(const Picture& picture) {
   return static_cast<int>(std::min<std::int64_t>(rows, std::max(1, picture.data.height())));
 }
 
+std::int64_t planned_bytes(const Picture& picture) {
+  constexpr std::int64_t bands = 3;
+  return bands * static_cast<std::int64_t>(row_bytes(picture)) * band_rows(picture) + picture.library_bytes;
+}
+
 ColourChannels find_colour(const Picture& picture, const std::string& layer, const std::string& file) {
   using Kind = ColourChannels::Kind;
   std::map<std::string, Layer> layers = layers_of(picture.channels);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -65,6 +66,8 @@ struct Picture {
   int chunk_rows = 1;
   /// Bytes per pixel that a band needs besides its channels: those of computed signals.
   std::size_t computed_bytes = 0;
+  /// Bytes that the library which reads keeps for itself, as far as the header tells.
+  std::int64_t library_bytes = 0;
   /// The file holds its last rows first, so bands are best read so.
   bool descending = false;
   /// False for deep or subsampled pixels, which can only be copied as they are.
@@ -109,6 +112,10 @@ int band_rows(const Picture& picture);
 
 /// Bytes of one row, all channels.
 std::size_t row_bytes(const Picture& picture);
+
+/// Bytes that reading the picture and writing it again plans for: three bands (read, written, and what the
+/// libraries hold of them), and the library's own.
+std::int64_t planned_bytes(const Picture& picture);
 
 /// Where the light is. `layer`: a channel prefix to look under ("" chooses by itself: topmost R, G, B; else
 /// the only layer that has them; else L, M, S, R; else a single Y). Several candidates are an Error(usage).

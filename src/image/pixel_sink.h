@@ -1,4 +1,4 @@
-// Where pixels go: an OpenEXR, TIFF, PNG or JPEG file that appears when all of it is written.
+// Where pixels go: an OpenEXR, TIFF, PNG or JPEG file that appears when it is committed.
 #pragma once
 
 #include <memory>
@@ -38,7 +38,7 @@ class PixelSink {
   virtual void write(std::size_t index, const Band& band) = 0;
   /// An output picture with `copy` set, all of it.
   virtual void copy(std::size_t index) = 0;
-  /// Ends the file and puts it in place.
+  /// Ends the file. It is complete then, and its OutputFile is to be committed.
   virtual void finish() = 0;
 };
 

@@ -7,17 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "image/input_file.h"
+#include "image/limits.h"
 #include "image/picture.h"
 
 namespace scotopic {
-
-/// Checked against the header before anything is allocated. Exceeding one is Error(ExitCode::limit).
-struct Limits {
-  std::int64_t side = 262144;
-  std::int64_t pixels = std::int64_t{1} << 32;
-  std::int64_t channels = 4096;
-  std::int64_t band_bytes = std::int64_t{2} << 30;  ///< of one band, all channels
-};
 
 /// A file being read. Errors are Error(ExitCode::input) with the file's name. One thread at a time.
 class PixelSource {
@@ -37,18 +31,23 @@ class PixelSource {
   }
   /// What other formats can hold of a picture's metadata.
   virtual std::vector<Attribute> attributes(std::size_t index) const = 0;
+  /// Throws if a file has changed since it was opened: before what was made of it takes its place.
+  void require_unchanged() const;
 
  protected:
   PixelSource(std::string file, std::string format) : file_(std::move(file)), format_(std::move(format)) {}
   [[noreturn]] void fail(const std::string& what) const;
   /// Throws for the first limit that a picture exceeds.
   void check_limits(const Limits& limits) const;
+  /// To be called before a file is opened.
+  void watch(const std::string& file) { watched_.emplace_back(file); }
 
   std::vector<Picture> pictures_;
 
  private:
   std::string file_;
   std::string format_;
+  std::vector<FileState> watched_;
 };
 
 /// Opens by content, not by name: OpenEXR (scanlines, tiles, parts), TIFF, PNG, JPEG, Radiance HDR; anything

@@ -123,10 +123,6 @@ bool same_grid(const std::vector<SpectralBand>& a, const std::vector<SpectralBan
          });
 }
 
-void check_size(std::size_t bands, const std::string& file) {
-  if (bands > max_spectral_bands)
-    throw Error(ExitCode::limit, file, fmt::format("{} bands, more than {}", bands, max_spectral_bands));
-}
 
 SpectralLayout layout_of_sets(BandSets& found, std::span<const ChannelName> channels) {
   for (auto& bands : found) sort_bands(bands, channels);
@@ -146,13 +142,8 @@ SpectralLayout layout_of_sets(BandSets& found, std::span<const ChannelName> chan
   return layout;
 }
 
-std::map<std::string, BandSets> sets_by_layer(std::span<const ChannelName> channels,
-                                              const std::string& file) {
+std::map<std::string, BandSets> sets_by_layer(std::span<const ChannelName> channels) {
   std::map<std::string, BandSets> layers;
-  std::size_t bands = 0;
-  for (const ChannelName& channel : channels)
-    if (band_name(channel.name)) ++bands;
-  check_size(bands / 5, file);  // S0 to S3 and T
   for (std::size_t i = 0; i < channels.size(); ++i)
     if (const auto band = band_name(channels[i].name))
       layers[band->layer][band->set].push_back({i, wavelength_from_text(band->wavelength, channels[i].name)});
@@ -163,7 +154,7 @@ bool is_ocean_name(std::string_view name) {
   return name.size() > 2 && name.substr(0, 2) == "wl" && std::all_of(name.begin() + 2, name.end(), is_digit);
 }
 
-SpectralLayout ocean_layout(std::span<const ChannelName> channels, const std::string& file) {
+SpectralLayout ocean_layout(std::span<const ChannelName> channels) {
   SpectralLayout layout;
   for (std::size_t i = 0; i < channels.size(); ++i) {
     if (!is_ocean_name(channels[i].name)) continue;
@@ -172,7 +163,6 @@ SpectralLayout ocean_layout(std::span<const ChannelName> channels, const std::st
     if (!(std::isfinite(nm) && nm > 0.0)) fail(channels[i].name, "has a wavelength that is not positive");
     layout.bands.push_back({i, nm});
   }
-  check_size(layout.bands.size(), file);
   sort_bands(layout.bands, channels);
   return layout;
 }
@@ -185,9 +175,9 @@ std::string layer_names(const std::map<std::string, BandSets>& layers) {
 
 std::optional<SpectralLayout> search(std::span<const ChannelName> channels, const std::string& layer,
                                      const std::string& file) {
-  auto layers = sets_by_layer(channels, file);
+  auto layers = sets_by_layer(channels);
   if (layers.empty()) {
-    SpectralLayout ocean = ocean_layout(channels, file);
+    SpectralLayout ocean = ocean_layout(channels);
     return ocean.bands.empty() ? std::nullopt : std::optional(std::move(ocean));
   }
   auto chosen = layers.size() == 1 && layer.empty() ? layers.begin() : layers.find(layer);
@@ -196,7 +186,6 @@ std::optional<SpectralLayout> search(std::span<const ChannelName> channels, cons
                 fmt::format("has bands in {}: {}", layer.empty() ? "several layers" : "other layers only",
                             layer_names(layers)));
   SpectralLayout layout = layout_of_sets(chosen->second, channels);
-  check_size(layout.bands.size(), file);
   return layout;
 }
 

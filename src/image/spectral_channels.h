@@ -36,9 +36,6 @@ struct SpectralLayout {
   std::vector<std::string> notes;
 };
 
-/// More bands than any camera or renderer has; a file with more is taken to be hostile.
-inline constexpr std::size_t max_spectral_bands = 4096;
-
 /// Whether a name is that of a band or a Stokes component, well-formed or not.
 bool is_spectral_channel(std::string_view name);
 

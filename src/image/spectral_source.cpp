@@ -10,9 +10,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <new>
 #include <set>
 
 #include "image/error.h"
+#include "image/exr_headers.h"
 #include "image/exr_source.h"
 #include "image/row_bands.h"
 #include "image/spectral_header.h"
@@ -58,8 +60,8 @@ class ExrSpectralSource final : public SpectralSource {
   std::vector<Attribute> attributes(std::size_t index) const override;
 
  private:
-  void open_files();
-  void add_file(const std::string& name);
+  void open_files(const Limits& limits);
+  void add_file(const std::string& name, const Limits& limits);
   bool find_bands(const SpectralOptions& options);
   void find_bands_of_files();
   void check_places() const;
@@ -88,17 +90,20 @@ class ExrSpectralSource final : public SpectralSource {
   std::vector<std::byte> buffer_;  // [row][band][x]
 };
 
-void ExrSpectralSource::open_files() {
+void ExrSpectralSource::open_files(const Limits& limits) {
   if (is_wavelength_pattern(file())) {
     sequence_ = files_of_pattern(file());
-    for (const WavelengthFile& one : sequence_) add_file(one.file);
+    check_limit(file(), "files", static_cast<std::int64_t>(sequence_.size()), limits.bands, "--max-bands");
+    for (const WavelengthFile& one : sequence_) add_file(one.file, limits);
   } else {
-    add_file(file());
+    add_file(file(), limits);
   }
 }
 
-void ExrSpectralSource::add_file(const std::string& name) {
+void ExrSpectralSource::add_file(const std::string& name, const Limits& limits) {
   names_.push_back(name);
+  watch(name);
+  check_exr_headers(name, limits);
   const std::size_t file_index = files_.size();
   files_.push_back(std::make_unique<Imf::MultiPartInputFile>(name.c_str()));
   Imf::MultiPartInputFile& opened = *files_.back();
@@ -242,10 +247,8 @@ void ExrSpectralSource::describe_picture(const Limits& limits) {
   pictures_.push_back(picture);
   check_limits(limits);
   const auto row = static_cast<std::int64_t>(bands_.size() * sizeof(float)) * picture.data.width();
-  if (row * picture.chunk_rows > limits.band_bytes)
-    throw Error(ExitCode::limit, file(),
-                fmt::format("rows compressed together need {} MiB, more than {}",
-                            row * picture.chunk_rows >> 20, limits.band_bytes >> 20));
+  check_limit(file(), "bytes of memory planned", planned_bytes(picture) + row * picture.chunk_rows, limits.memory,
+              "--max-memory");
 }
 
 bool ExrSpectralSource::open(const SpectralOptions& options, const Limits& limits) {
@@ -253,13 +256,16 @@ bool ExrSpectralSource::open(const SpectralOptions& options, const Limits& limit
     const auto side = static_cast<int>(std::min<std::int64_t>(limits.side, INT32_MAX));
     Imf::Header::setMaxImageSize(side, side);
     Imf::Header::setMaxTileSize(side, side);
-    open_files();
+    open_files(limits);
     if (!find_bands(options)) return false;
+    check_limit(file(), "bands", static_cast<std::int64_t>(layout_.bands.size()), limits.bands, "--max-bands");
     check_places();
     weigh(options);
     describe_picture(limits);
     return true;
   } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
     throw Error(ExitCode::input, names_.empty() ? file() : names_.back(),
@@ -310,6 +316,8 @@ void ExrSpectralSource::read_rows(int y0, int rows, Band& band) {
     input.setFrameBuffer(frame);
     try {
       input.readPixels(y0, y0 + rows - 1);
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception& error) {
       throw Error(ExitCode::input, names_[file_index],
                   fmt::format("damaged or cut short: {}", one_line(error.what())));

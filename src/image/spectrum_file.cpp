@@ -5,16 +5,16 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <vector>
 
 #include "image/error.h"
+#include "image/input_file.h"
 
 namespace scotopic {
 namespace {
 
-constexpr std::size_t max_bytes = std::size_t{1} << 20;
+constexpr std::int64_t max_bytes = std::int64_t{1} << 20;
 constexpr double first_nm = 300.0;
 constexpr double last_nm = 900.0;
 
@@ -119,13 +119,7 @@ Spectrum spectrum_from_text(std::string_view text, const std::string& file) {
 }
 
 Spectrum read_spectrum_file(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw Error(ExitCode::input, file, "cannot be opened");
-  std::string text(max_bytes + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.size() > max_bytes) throw Error(ExitCode::limit, file, "is no spectrum: more than 1 MiB");
-  return spectrum_from_text(text, file);
+  return spectrum_from_text(read_input_file(file, ExitCode::input, max_bytes, ""), file);
 }
 
 }  // namespace scotopic

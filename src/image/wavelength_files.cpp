@@ -61,9 +61,6 @@ std::vector<WavelengthFile> files_of_pattern(const std::string& pattern) {
       if (const auto nm = wavelength_in(entry->path().filename().string(), *parsed))
         files.push_back({(path.parent_path() / entry->path().filename()).string(), *nm});
   if (files.empty()) throw Error(ExitCode::input, pattern, "no file has such a name");
-  if (files.size() > max_spectral_bands)
-    throw Error(ExitCode::limit, pattern,
-                fmt::format("{} files, more than {}", files.size(), max_spectral_bands));
   std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.nm < b.nm; });
   for (std::size_t i = 1; i < files.size(); ++i)
     if (files[i].nm == files[i - 1].nm)

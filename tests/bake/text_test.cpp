@@ -3,6 +3,8 @@
 
 #include <clocale>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
 
 #include "bake/chain_text.h"
 #include "bake/inspect.h"
@@ -11,6 +13,7 @@
 #include "bake/look_spec.h"
 #include "bake/number_text.h"
 #include "bake/ocio_chain.h"
+#include "bake/read_back.h"
 #include "bake/sha256.h"
 #include "bake/support.h"
 #include "image/error.h"
@@ -131,6 +134,75 @@ TEST(LookFiles, plain_formats_hold_one_cube_in_their_own_order) {
   EXPECT_NE(cube_text(chain).find("LUT_3D_SIZE 2\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n"), std::string::npos);
   EXPECT_NE(spi3d_text(lut).find("2 2 2\n0 0 0 0 0 0\n0 0 1 0 0 1\n"), std::string::npos);
   EXPECT_THROW((void)cube_text(look_chain(test::adapted_to(0.05), 17)), std::logic_error);
+}
+
+/// Every number that stands outside words in a LUT's text.
+std::vector<double> numbers_in(const std::string& text) {
+  std::vector<double> out;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (std::strchr("0123456789-+.naif", text[at]) == nullptr) continue;
+    if (at > 0 && std::strchr(" \n>", text[at - 1]) == nullptr) continue;
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str() + at, &end);
+    const auto stop = static_cast<std::size_t>(end - text.c_str());
+    if (stop > at && (stop == text.size() || std::strchr(" \n<", text[stop]) != nullptr)) out.push_back(value);
+    at = std::max(at, stop);
+  }
+  return out;
+}
+
+TEST(LookFiles, no_number_is_infinite_or_nan_or_subnormal_however_extreme_the_light) {
+  std::size_t numbers = 0;
+  for (const Model model : {Model::filament2021, Model::kirk2011, Model::safko2019})
+    for (const double adaptation : {1e-9, 1e-3, 4.9, 5.0, 1e9})
+      for (const double white : {1e-9, 1.0, 1e9}) {
+        AppearanceParameters p = test::adapted_to(adaptation, "rec709", model);
+        p.white_luminance = white;
+        std::string text;
+        try {
+          text = xml_text(look_chain(p, 17), ChainFormat::clf);
+        } catch (const Error& e) {
+          EXPECT_EQ(e.code(), ExitCode::check_failed) << e.what();
+          continue;
+        }
+        for (const double value : numbers_in(text)) {
+          const auto single = static_cast<float>(value);
+          ASSERT_TRUE(single == 0 || std::isnormal(single)) << value << " at " << adaptation << ", " << white;
+          ++numbers;
+        }
+      }
+  EXPECT_GT(numbers, 45u * 17 * 17 * 17);
+}
+
+TEST(LookFiles, numbers_that_floats_cannot_hold_are_refused_or_nothing) {
+  Chain chain;
+  chain.steps = {MatrixStep{diagonal<double>({1e-40, 1, 1}), {}}};
+  EXPECT_NE(xml_text(chain, ChainFormat::clf).find("0 0 0\n0 1 0"), std::string::npos)
+      << xml_text(chain, ChainFormat::clf);
+  for (const double odd : {1e39, std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    chain.steps = {MatrixStep{diagonal<double>({odd, 1, 1}), {}}};
+    EXPECT_THROW((void)xml_text(chain, ChainFormat::clf), Error) << odd;
+    Lut3DStep lut{2, std::vector<double>(24, odd), 6};
+    EXPECT_THROW((void)spi3d_text(lut), Error) << odd;
+  }
+}
+
+TEST(ReadBack, what_a_file_holds_is_what_was_meant_to_the_last_bit) {
+  const AppearanceParameters p = test::adapted_to(0.05);
+  Chain chain = look_chain(p, 17);
+  chain.id = chain.name = "test";
+  const test::Folder folder;
+  const std::string text = xml_text(chain, ChainFormat::clf);
+  EXPECT_NO_THROW(require_read_back(folder.write("a.clf", text), "a.clf", chain));
+  EXPECT_NO_THROW(require_lut(folder.path("a.clf"), "a.clf"));
+  // One digit of one number; a file cut; no file.
+  std::string changed = text;
+  const std::size_t digit = text.find('.', text.find("<LUT3D")) + 2;
+  changed[digit] = changed[digit] == '5' ? '6' : '5';
+  EXPECT_THROW(require_read_back(folder.write("b.clf", changed), "b.clf", chain), Error);
+  EXPECT_THROW(require_read_back(folder.write("c.clf", text.substr(0, text.size() / 2)), "c.clf", chain), Error);
+  EXPECT_THROW(require_lut(folder.path("none.clf"), "none.clf"), Error);
+  EXPECT_THROW(require_config("ocio_profile_version: 2\n", "x.ocio"), Error);
 }
 
 TEST(Inspection, a_lut_that_is_worse_than_it_says_fails_and_strangers_are_refused) {

@@ -46,7 +46,7 @@ Bytes file_of(const std::vector<std::string>& channels, Imf::Compression compres
 
 Limits small() {
   Limits limits;
-  limits.side = 4096, limits.pixels = 1 << 18, limits.channels = 64, limits.band_bytes = 8 << 20;
+  limits.side = 4096, limits.pixels = 1 << 18, limits.channels = 64, limits.memory = 24 << 20;
   return limits;
 }
 

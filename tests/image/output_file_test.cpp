@@ -1,16 +1,21 @@
 #include "image/output_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "image/error.h"
+#include "image/output_set.h"
 
 namespace scotopic {
 namespace {
@@ -114,6 +119,92 @@ TEST_F(OutputFileTest, folders_devices_and_missing_folders_are_refused) {
       EXPECT_EQ(e.code(), ExitCode::output) << target;
     }
   }
+}
+
+TEST_F(OutputFileTest, a_link_to_nothing_yet_is_followed_too) {
+  fs::create_directory(path("sub"));
+  fs::create_symlink("sub/target", path("link"));
+  OutputFile file(path("link"));
+  file.write("new", 3);
+  file.commit();
+  EXPECT_TRUE(fs::is_symlink(path("link")));
+  EXPECT_EQ(read(path("sub/target")), "new");
+}
+
+TEST_F(OutputFileTest, completed_is_not_yet_in_place) {
+  write(path("old"), "old");
+  OutputFile file(path("old"));
+  file.write("new", 3);
+  file.complete();
+  EXPECT_EQ(read(path("old")), "old");
+  EXPECT_EQ(read(file.open_name()), "new");
+  const int before = files_in_place();
+  file.publish();
+  EXPECT_EQ(read(path("old")), "new");
+  EXPECT_EQ(files_in_place(), before + 1);
+}
+
+TEST_F(OutputFileTest, what_cannot_take_its_place_goes_away) {
+  write(path("old"), "old");
+  OutputFile file(path("old"));
+  file.write("new", 3);
+  fs::remove(path("old"));
+  fs::create_directory(path("old"));  // which no rename replaces
+  EXPECT_THROW(file.commit(), Error);
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(OutputFileTest, an_abandoned_temporary_goes_and_a_living_one_stays) {
+  // Its name is the same for each writer of the target (FNV-1a of the name).
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : std::string("target")) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  char hexadecimal[17];
+  std::snprintf(hexadecimal, sizeof hexadecimal, "%016llx", static_cast<unsigned long long>(hash));
+  const std::string name = path(std::string(".scotopic-") + hexadecimal + "-0.tmp");
+  write(name, "of a program that was killed");
+  { OutputFile file(path("target")); }
+  EXPECT_FALSE(fs::exists(name));
+  write(name, "of a program that lives");
+  const int living = open(name.c_str(), O_RDWR);
+  ASSERT_EQ(flock(living, LOCK_EX), 0);
+  {
+    write(path("target"), "old");
+    OutputFile file(path("target"));
+    file.write("new", 3);
+    file.commit();
+  }
+  EXPECT_TRUE(fs::exists(name));
+  EXPECT_EQ(read(path("target")), "new");
+  close(living);
+}
+
+TEST_F(OutputFileTest, a_set_is_in_place_only_when_all_of_it_is_written) {
+  write(path("a"), "old a");
+  {
+    OutputSet set;
+    set.make_folder(path("new/sub"));
+    set.add(path("a"), "new a");
+    set.add(path("new/sub/b"), "new b");
+    EXPECT_EQ(read(path("a")), "old a");
+  }
+  EXPECT_EQ(read(path("a")), "old a");
+  EXPECT_FALSE(fs::exists(path("new")));
+  OutputSet set;
+  set.make_folder(path("new/sub/"));
+  set.add(path("a"), "new a");
+  set.add(path("new/sub/b"), "new b");
+  set.commit();
+  EXPECT_EQ(read(path("a")), "new a");
+  EXPECT_EQ(read(path("new/sub/b")), "new b");
+}
+
+TEST_F(OutputFileTest, folders_that_can_be_written_to_are_known_before) {
+  EXPECT_NO_THROW(require_writable_folder(path("not/there/yet")));
+  EXPECT_NO_THROW(require_writable_folder(folder_.string()));
+  write(path("file"), "");
+  EXPECT_THROW(require_writable_folder(path("file")), Error);
+  EXPECT_THROW(require_writable_folder(path("file/sub")), Error);
+  EXPECT_THROW(require_writable_folder("/proc/nowhere"), Error);
 }
 
 TEST_F(OutputFileTest, a_full_disk_is_an_error_and_leaves_nothing) {

@@ -1,0 +1,74 @@
+#include "bake/read_back.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <sstream>
+
+#include "bake/measure.h"
+#include "bake/ocio_chain.h"
+#include "image/error.h"
+
+namespace OCIO = OCIO_NAMESPACE;
+
+namespace scotopic {
+namespace {
+
+constexpr std::size_t colours_compared = 4096;
+
+[[noreturn]] void fail(const std::string& path, std::string what) {
+  std::replace(what.begin(), what.end(), '\n', ' ');
+  throw Error(ExitCode::output, path, "does not read back as it was made: " + what);
+}
+
+OCIO::ConstCPUProcessorRcPtr read(const std::string& file, const std::string& path) {
+  // OCIO keeps what it read under a name, and these names are used again.
+  OCIO::ClearAllCaches();
+  const OCIO::FileTransformRcPtr transform = OCIO::FileTransform::Create();
+  transform->setSrc(file.c_str());
+  transform->setInterpolation(OCIO::INTERP_TETRAHEDRAL);
+  try {
+    return cpu_processor(transform, OCIO::Config::CreateRaw());
+  } catch (const OCIO::Exception& e) {
+    fail(path, e.what());
+  }
+}
+
+Colours probes() {
+  Colours out = stop_colours(colours_compared, identity3<double>(), identity3<double>());
+  for (const float r : {0.f, 1.f, -1.f, 1e-30f, 65504.f, 1e30f})
+    for (const float g : {0.f, .25f, 1.f, 2.f}) {
+      out.r.push_back(r);
+      out.g.push_back(g);
+      out.b.push_back(.5f * r);
+    }
+  return out;
+}
+
+bool same(const std::vector<float>& a, const std::vector<float>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+}  // namespace
+
+void require_read_back(const std::string& file, const std::string& path, const Chain& chain) {
+  Colours meant = probes(), got = meant;
+  scotopic::apply(cpu_processor(ocio_transform(chain), OCIO::Config::CreateRaw()), meant);
+  scotopic::apply(read(file, path), got);
+  if (!same(meant.r, got.r) || !same(meant.g, got.g) || !same(meant.b, got.b))
+    fail(path, "colours come out otherwise");
+}
+
+void require_lut(const std::string& file, const std::string& path) { (void)read(file, path); }
+
+void require_config(const std::string& text, const std::string& path) {
+  try {
+    std::istringstream stream(text);
+    OCIO::Config::CreateFromStream(stream)->validate();
+  } catch (const OCIO::Exception& e) {
+    fail(path, e.what());
+  }
+}
+
+}  // namespace scotopic

@@ -1,0 +1,70 @@
+#include "cli/process.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <clocale>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <new>
+
+#include "image/error.h"
+#include "image/output_file.h"
+
+namespace scotopic {
+namespace {
+
+bool ends_in_json = false;
+
+void write_all(const char* text) { (void)!write(STDERR_FILENO, text, std::strlen(text)); }
+
+/// Here there may be no memory left: no strings.
+void say_end(ExitCode code, const char* number, const char* what) {
+  write_all(ends_in_json ? "{\"error\":{\"code\":" : "scotopic: ");
+  if (ends_in_json) write_all(number);
+  if (ends_in_json) write_all(",\"file\":\"\",\"message\":\"");
+  write_all(what);
+  write_all(ends_in_json ? "\"}}\n" : files_in_place() == 0 ? " (nothing written)\n" : " (files had been written)\n");
+  _exit(static_cast<int>(code));
+}
+
+void end_without_unwinding() {
+  remove_unfinished_files();
+  try {
+    if (std::current_exception()) throw;
+  } catch (const std::bad_alloc&) {
+    say_end(ExitCode::limit, "4", "out of memory");
+  } catch (...) {
+  }
+  say_end(ExitCode::internal, "70", "internal error: an exception that nobody caught");
+}
+
+/// A standard stream that is closed would give its number to the next file opened. Reading in place of writing,
+/// so that what is written there still fails.
+void open_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) < 0)
+      (void)!open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+/// What the libraries would read besides: it loads code, changes results, or prints between our lines.
+void ignore_environment() {
+  for (const char* name :
+       {"OCIO_LOGGING_LEVEL", "OCIO_OPTIMIZATION_FLAGS", "OPENIMAGEIO_OPTIONS", "OPENIMAGEIO_THREADS",
+        "OPENIMAGEIO_DEBUG", "OPENIMAGEIO_DEBUG_FILE", "OPENIMAGEIO_LOG_TIMES", "OIIO_LIBRARY_PATH", "CUE_THREADS"})
+    unsetenv(name);
+}
+
+}  // namespace
+
+void prepare_process(bool json) {
+  ends_in_json = json;
+  open_standard_streams();
+  std::setlocale(LC_ALL, "C");
+  ignore_environment();
+  std::set_terminate(end_without_unwinding);
+  remove_unfinished_files_on_signals();
+}
+
+}  // namespace scotopic

@@ -1,0 +1,18 @@
+// The LUT files that a transform of a config names, looked at before OpenColorIO reads them.
+#pragma once
+
+#include <OpenColorIO/OpenColorIO.h>
+
+#include <string>
+
+#include "image/limits.h"
+
+namespace scotopic {
+
+/// Throws Error(config) where a file that `transform` leads to, through colour spaces and looks too, is no
+/// regular file (a pipe would hold us, a device be without end), and Error(limit) where one is larger than
+/// limits.lut. Files that are not there are left to OpenColorIO to name.
+void check_lut_files(const OCIO_NAMESPACE::ConstConfigRcPtr& config,
+                     const OCIO_NAMESPACE::ConstTransformRcPtr& transform, const Limits& limits);
+
+}  // namespace scotopic
