@@ -182,7 +182,7 @@ std::vector<std::string> manifest_problems(const std::string& folder) {
       problems.push_back(name + " is not the file that MANIFEST lists");
   }
   for (const auto& entry : fs::directory_iterator(folder))
-    if (!listed.count(entry.path().filename().string()))
+    if (entry.is_regular_file() && !listed.count(entry.path().filename().string()))
       problems.push_back(entry.path().filename().string() + " is not in MANIFEST");
   return problems;
 }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "image/lut_files.h"
+
 namespace OCIO = OCIO_NAMESPACE;
 
 namespace scotopic {
@@ -66,8 +68,9 @@ OCIO::GroupTransformRcPtr ocio_transform(const Chain& chain) {
 
 OCIO::ConstCPUProcessorRcPtr cpu_processor(const OCIO::ConstTransformRcPtr& transform,
                                            const OCIO::ConstConfigRcPtr& config) {
-  return config->getProcessor(transform)->getOptimizedCPUProcessor(OCIO::BIT_DEPTH_F32, OCIO::BIT_DEPTH_F32,
-                                                                   OCIO::OPTIMIZATION_LOSSLESS);
+  const OCIO::ConstProcessorRcPtr processor = config->getProcessor(transform);
+  require_usable_luts(processor, "");
+  return processor->getOptimizedCPUProcessor(OCIO::BIT_DEPTH_F32, OCIO::BIT_DEPTH_F32, OCIO::OPTIMIZATION_LOSSLESS);
 }
 
 }  // namespace scotopic

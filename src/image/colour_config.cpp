@@ -1,6 +1,7 @@
 #include "image/colour_config.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <new>
@@ -32,6 +33,16 @@ std::string one_line(std::string text) {
 
 /// Warnings would come on stderr between our own lines.
 void silence_ocio() { OCIO::SetLoggingLevel(OCIO::LOGGING_LEVEL_NONE); }
+
+/// Of light that every space has; matrices and LUTs of NaN or infinities show there.
+bool keeps_finite(const OCIO::CPUProcessor& processor) {
+  for (const std::array<float, 3>& colour : {std::array{.18f, .18f, .18f}, {1.f, .5f, .25f}, {.25f, 1.f, .5f}}) {
+    std::array<float, 3> rgb = colour;
+    processor.applyRGB(rgb.data());
+    if (!std::isfinite(rgb[0] + rgb[1] + rgb[2])) return false;
+  }
+  return true;
+}
 
 bool near(const Vec3<double>& a, const Vec3<double>& b, double scale) {
   for (std::size_t i = 0; i < 3; ++i)
@@ -112,8 +123,14 @@ OCIO::ConstCPUProcessorRcPtr ColourConfig::processor(const std::string& from, co
   both->setDst(to.c_str());
   check_lut_files(config_, both, limits_);
   try {
-    return config_->getProcessor(from.c_str(), to.c_str())
-        ->getOptimizedCPUProcessor(OCIO::BIT_DEPTH_F32, OCIO::BIT_DEPTH_F32, optimisation);
+    const OCIO::ConstProcessorRcPtr way = config_->getProcessor(from.c_str(), to.c_str());
+    require_usable_luts(way, file_);
+    const OCIO::ConstCPUProcessorRcPtr out =
+        way->getOptimizedCPUProcessor(OCIO::BIT_DEPTH_F32, OCIO::BIT_DEPTH_F32, optimisation);
+    if (!keeps_finite(*out)) fail("from colour space '" + from + "' to '" + to + "' colours are no numbers any more");
+    return out;
+  } catch (const Error&) {
+    throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {

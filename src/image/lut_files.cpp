@@ -2,7 +2,7 @@
 
 #include <sys/stat.h>
 
-#include <set>
+#include <map>
 
 #include "image/error.h"
 #include "image/input_file.h"
@@ -12,41 +12,73 @@ namespace OCIO = OCIO_NAMESPACE;
 namespace scotopic {
 namespace {
 
+OCIO::TransformDirection turned(OCIO::TransformDirection direction, OCIO::TransformDirection by) {
+  return OCIO::CombineTransformDirections(direction, by);
+}
+
+constexpr auto forward = OCIO::TRANSFORM_DIR_FORWARD;
+constexpr auto inverse = OCIO::TRANSFORM_DIR_INVERSE;
+
 class Walk {
  public:
   Walk(const OCIO::ConstConfigRcPtr& config, const Limits& limits) : config_(config), limits_(limits) {}
 
-  void transform(const OCIO::ConstTransformRcPtr& step) {
+  void transform(const OCIO::ConstTransformRcPtr& step, OCIO::TransformDirection wanted) {
     if (!step) return;
+    const OCIO::TransformDirection direction = turned(step->getDirection(), wanted);
     if (const auto group = OCIO::DynamicPtrCast<const OCIO::GroupTransform>(step)) {
-      for (int i = 0; i < group->getNumTransforms(); ++i) transform(group->getTransform(i));
+      for (int i = 0; i < group->getNumTransforms(); ++i) transform(group->getTransform(i), direction);
     } else if (const auto file = OCIO::DynamicPtrCast<const OCIO::FileTransform>(step)) {
       lut(file->getSrc());
     } else if (const auto spaces = OCIO::DynamicPtrCast<const OCIO::ColorSpaceTransform>(step)) {
-      space(spaces->getSrc());
-      space(spaces->getDst());
+      way(spaces->getSrc(), spaces->getDst(), direction);
     } else if (const auto looks = OCIO::DynamicPtrCast<const OCIO::LookTransform>(step)) {
-      space(looks->getSrc());
-      space(looks->getDst());
+      way(looks->getSrc(), looks->getDst(), direction);
       looks_in(looks->getLooks());
     } else if (const auto view = OCIO::DynamicPtrCast<const OCIO::DisplayViewTransform>(step)) {
-      space(view->getSrc());
-      space(config_->getDisplayViewColorSpaceName(view->getDisplay(), view->getView()));
+      way(view->getSrc(), config_->getDisplayViewColorSpaceName(view->getDisplay(), view->getView()), direction);
       looks_in(config_->getDisplayViewLooks(view->getDisplay(), view->getView()));
     }
   }
 
  private:
-  void space(const std::string& name) {
+  void way(const char* from, const char* to, OCIO::TransformDirection direction) {
+    space(direction == forward ? from : to, OCIO::COLORSPACE_DIR_TO_REFERENCE);
+    space(direction == forward ? to : from, OCIO::COLORSPACE_DIR_FROM_REFERENCE);
+  }
+
+  /// A way that leads through itself would never end: OpenColorIO 2.1 runs out of stack on it.
+  template <typename Follow>
+  void once(const std::string& name, const std::string& key, Follow follow) {
+    const auto [known, added] = done_.emplace(key, false);
+    if (!added && !known->second)
+      throw Error(ExitCode::config, "", "the config's transform of '" + name + "' leads to itself");
+    if (!added) return;
+    follow();
+    done_[key] = true;
+  }
+
+  void space(const std::string& name, OCIO::ColorSpaceDirection direction) {
     const OCIO::ConstColorSpaceRcPtr found = config_->getColorSpace(name.c_str());
-    if (!found || !seen_.insert(found->getName()).second) return;
-    transform(found->getTransform(OCIO::COLORSPACE_DIR_TO_REFERENCE));
-    transform(found->getTransform(OCIO::COLORSPACE_DIR_FROM_REFERENCE));
-    if (found->getReferenceSpaceType() != OCIO::REFERENCE_SPACE_DISPLAY) return;
+    if (!found) return;
+    const bool to = direction == OCIO::COLORSPACE_DIR_TO_REFERENCE;
+    once(found->getName(), std::string(to ? "to " : "from ") + found->getName(), [&] {
+      const auto other = to ? OCIO::COLORSPACE_DIR_FROM_REFERENCE : OCIO::COLORSPACE_DIR_TO_REFERENCE;
+      // Of the two transforms a space may have, the other one's inverse stands in for the one that is missing.
+      if (const auto own = found->getTransform(direction))
+        transform(own, forward);
+      else
+        transform(found->getTransform(other), inverse);
+    });
+    if (found->getReferenceSpaceType() == OCIO::REFERENCE_SPACE_DISPLAY) view_transforms();
+  }
+
+  void view_transforms() {
+    if (!done_.emplace("view transforms", true).second) return;
     for (int i = 0; i < config_->getNumViewTransforms(); ++i) {
       const auto view = config_->getViewTransform(config_->getViewTransformNameByIndex(i));
-      transform(view->getTransform(OCIO::VIEWTRANSFORM_DIR_TO_REFERENCE));
-      transform(view->getTransform(OCIO::VIEWTRANSFORM_DIR_FROM_REFERENCE));
+      transform(view->getTransform(OCIO::VIEWTRANSFORM_DIR_TO_REFERENCE), forward);
+      transform(view->getTransform(OCIO::VIEWTRANSFORM_DIR_FROM_REFERENCE), forward);
     }
   }
 
@@ -54,11 +86,14 @@ class Walk {
   void looks_in(const std::string& list) {
     for (int i = 0; i < config_->getNumLooks(); ++i) {
       const std::string name = config_->getLookNameByIndex(i);
-      if (list.find(name) == std::string::npos || !seen_.insert("look " + name).second) continue;
-      const OCIO::ConstLookRcPtr look = config_->getLook(name.c_str());
-      space(look->getProcessSpace());
-      transform(look->getTransform());
-      transform(look->getInverseTransform());
+      if (list.find(name) == std::string::npos) continue;
+      once(name, "look " + name, [&] {
+        const OCIO::ConstLookRcPtr look = config_->getLook(name.c_str());
+        space(look->getProcessSpace(), OCIO::COLORSPACE_DIR_TO_REFERENCE);
+        space(look->getProcessSpace(), OCIO::COLORSPACE_DIR_FROM_REFERENCE);
+        transform(look->getTransform(), forward);
+        transform(look->getInverseTransform(), forward);
+      });
     }
   }
 
@@ -75,14 +110,25 @@ class Walk {
 
   const OCIO::ConstConfigRcPtr& config_;
   const Limits& limits_;
-  std::set<std::string> seen_;
+  std::map<std::string, bool> done_;  // false: under way
 };
 
 }  // namespace
 
 void check_lut_files(const OCIO::ConstConfigRcPtr& config, const OCIO::ConstTransformRcPtr& transform,
                      const Limits& limits) {
-  Walk(config, limits).transform(transform);
+  Walk(config, limits).transform(transform, forward);
+}
+
+void require_usable_luts(const OCIO::ConstProcessorRcPtr& processor, const std::string& file) {
+  const OCIO::GroupTransformRcPtr steps = processor->createGroupTransform();
+  for (int i = 0; i < steps->getNumTransforms(); ++i) {
+    const OCIO::TransformRcPtr step = steps->getTransform(i);
+    const auto cube = OCIO::DynamicPtrCast<OCIO::Lut3DTransform>(step);
+    const auto table = OCIO::DynamicPtrCast<OCIO::Lut1DTransform>(step);
+    if ((cube && cube->getGridSize() < 2) || (table && table->getLength() < 2))
+      throw Error(ExitCode::config, file, "a LUT of less than two nodes has no way between them");
+  }
 }
 
 }  // namespace scotopic

@@ -4,8 +4,14 @@
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <cstdint>
 #include <cstdio>
+#include <cstring>
 
 #include "image/error.h"
 #include "image/oiio_source.h"
@@ -31,6 +37,12 @@ class Proxy : public OIIO::Filesystem::IOProxy {
  private:
   OutputFile& file_;
 };
+
+/// FNV-1a, gone on with from `hash`.
+std::uint64_t hash_of(const std::vector<std::byte>& bytes, std::uint64_t hash) {
+  for (const std::byte b : bytes) hash = (hash ^ static_cast<std::uint64_t>(b)) * 0x100000001b3u;
+  return hash;
+}
 
 OIIO::TypeDesc oiio_type(PixelType type) {
   switch (type) {
@@ -87,13 +99,17 @@ class OiioSink : public PixelSink {
     output_ = OIIO::ImageOutput::create(format_);
     if (!output_) fail("OpenImageIO here has no " + format_ + " writer");
     // OpenImageIO appends pages only to what it can open by name; and where it writes Exif tags into a TIFF
-    // it reads the file's directory back, which its streams for writing cannot: the file would be none.
-    const bool by_name = pictures_.size() > 1 || (format_ == "tiff" && has_exif(specs_.front()));
-    name_ = by_name ? file_.open_name() : file_.path();
-    if (!by_name) output_->set_ioproxy(&proxy_);
+    // it reads the file's directory back, which its streams for writing cannot: the file would be none. What
+    // goes wrong in a file opened by name it does not always report: such files are made in memory.
+    if (by_name()) memory_ = memfd_create("scotopic-pages", MFD_CLOEXEC);
+    if (by_name() && memory_ < 0) fail(std::strerror(errno));
+    name_ = by_name() ? "/proc/self/fd/" + std::to_string(memory_) : file_.path();
+    if (!by_name()) output_->set_ioproxy(&proxy_);
+    hashes_.resize(pictures_.size());
   }
   ~OiioSink() override {
     if (output_) output_->close();
+    if (memory_ >= 0) close(memory_);
   }
   OiioSink(const OiioSink&) = delete;
   OiioSink& operator=(const OiioSink&) = delete;
@@ -110,6 +126,7 @@ class OiioSink : public PixelSink {
                         : output_->write_scanlines(band.y0, y1, 0, spec.format, band.storage.data());
     if (!ok) fail(output_->geterror());
     file_.check();
+    hashes_[index] = hash_of(band.storage, hashes_[index]);
   }
 
   void copy(std::size_t) override { fail("chunks can only be copied from OpenEXR to OpenEXR"); }
@@ -119,9 +136,61 @@ class OiioSink : public PixelSink {
     file_.check();
     if (!closed) fail(output_->geterror());
     output_.reset();
+    if (!by_name()) return;
+    read_back();
+    copy_from_memory();
   }
 
  private:
+  bool by_name() const { return pictures_.size() > 1 || (format_ == "tiff" && has_exif(specs_.front())); }
+
+  void copy_from_memory() {
+    std::vector<std::byte> piece(std::size_t{1} << 20);
+    for (std::int64_t at = 0;;) {
+      const ssize_t n = pread(memory_, piece.data(), piece.size(), at);
+      if (n < 0 && errno == EINTR) continue;
+      if (n < 0) fail(std::strerror(errno));
+      if (n == 0) break;
+      file_.write(piece.data(), static_cast<std::size_t>(n));
+      at += n;
+    }
+    file_.check();
+  }
+
+  /// What libtiff itself writes it does not report: pages are compared with what was to be written.
+  void read_back() const {
+    const auto input = OIIO::ImageInput::create(format_);
+    OIIO::ImageSpec spec, hints;
+    hints.attribute("oiio:UnassociatedAlpha", 1);
+    if (!input || !input->open(name_, spec, hints)) fail("it cannot be read back");
+    for (std::size_t page = 0; page < pictures_.size(); ++page)
+      if (!same_page(*input, page)) fail("page " + std::to_string(page + 1) + " reads back as something else");
+  }
+
+  bool same_page(OIIO::ImageInput& input, std::size_t page) const {
+    if (!input.seek_subimage(static_cast<int>(page), 0)) return false;
+    const OIIO::ImageSpec& meant = specs_[page];
+    const OIIO::ImageSpec got = input.spec();
+    if (got.width != meant.width || got.height != meant.height || got.nchannels != meant.nchannels ||
+        got.format != meant.format ||
+        got.get_string_attribute("ImageDescription") != meant.get_string_attribute("ImageDescription"))
+      return false;
+    const int rows = got.tile_width ? got.tile_height : 16;
+    std::vector<std::byte> pixels;
+    std::uint64_t hash = 0;
+    for (int y = got.y; y < got.y + got.height; y += rows) {
+      const int end = std::min(y + rows, got.y + got.height);
+      pixels.resize(static_cast<std::size_t>(end - y) * got.scanline_bytes(true));
+      const bool ok = got.tile_width ? input.read_tiles(static_cast<int>(page), 0, got.x, got.x + got.width, y, end,
+                                                        got.z, got.z + 1, 0, got.nchannels, got.format, pixels.data())
+                                     : input.read_scanlines(static_cast<int>(page), 0, y, end, got.z, 0, got.nchannels,
+                                                            got.format, pixels.data());
+      if (!ok) return false;
+      hash = hash_of(pixels, hash);
+    }
+    return hash == hashes_[page];
+  }
+
   void open(std::size_t index) {
     const auto mode = opened_ ? OIIO::ImageOutput::AppendSubimage : OIIO::ImageOutput::Create;
     if (!output_->open(name_, specs_[index], mode)) fail(output_->geterror());
@@ -196,6 +265,8 @@ class OiioSink : public PixelSink {
   Proxy proxy_;
   std::vector<OutputPicture> pictures_;
   std::vector<OIIO::ImageSpec> specs_;
+  int memory_ = -1;  // a file of several pages, until it is whole
+  std::vector<std::uint64_t> hashes_;  // of the pixels of each page
   std::unique_ptr<OIIO::ImageOutput> output_;
   bool opened_ = false;
   std::size_t current_ = 0;

@@ -37,7 +37,7 @@ TEST(House, no_verb_starts_a_program_or_opens_a_connection) {
   for (const WritingVerb& v : writing_verbs()) {
     const std::string folder = work_folder("jail");
     prepare(v, folder);
-    Run jailed;
+    Attempt jailed;
     jailed.arguments = arguments_of(v, folder);
     jailed.log = work_folder("") + "/jail.log";
     jailed.jail = true;
@@ -58,7 +58,7 @@ TEST(House, no_verb_starts_a_program_or_opens_a_connection) {
 
 TEST(House, the_jail_kills) {
   // The same jail on a program that does start another.
-  Run jailed;
+  Attempt jailed;
   jailed.arguments = {"--version"};
   jailed.jail = true;
   EXPECT_EQ(run(jailed).exit_code, 0);
@@ -73,7 +73,7 @@ TEST(House, every_variable_that_is_read_is_listed) {
   for (const WritingVerb& v : writing_verbs()) {
     const std::string folder = work_folder("variables");
     prepare(v, folder);
-    Run logging;
+    Attempt logging;
     logging.arguments = arguments_of(v, folder);
     logging.log = work_folder("") + "/variables.log";
     fs::remove(logging.log);
@@ -89,7 +89,7 @@ TEST(House, variables_of_libraries_have_no_effect) {
   const WritingVerb& v = writing_verbs()[3];  // TIFF: OpenImageIO, too
   const Subject subject = subject_of(v);
   subject.reset();
-  Run odd;
+  Attempt odd;
   odd.arguments = arguments_of(v, subject.folder);
   odd.environment = {"OCIO_LOGGING_LEVEL=debug",   "OCIO_OPTIMIZATION_FLAGS=0", "OPENIMAGEIO_OPTIONS=log_times=1",
                      "OPENIMAGEIO_DEBUG=9",        "OPENIMAGEIO_LOG_TIMES=1",    "OIIO_LIBRARY_PATH=" + subject.folder,
@@ -118,7 +118,7 @@ TEST(House, a_wrong_name_is_known_at_once) {
     // The machine may be busy: the least of a few tries is what the program needs.
     double least = 1e9;
     for (int i = 0; i < 5; ++i) {
-      Run wrong;
+      Attempt wrong;
       wrong.arguments = row;
       const Ended ended = run(wrong);
       EXPECT_EQ(broken_report(ended, {2, 3, 5, 6}), "") << row[0] << " " << row.back();
@@ -146,7 +146,7 @@ TEST(House, it_looks_before_it_reads) {
                            Order{{"-o", none}, 5},
                            Order{{"--max-pixels", "10", "-o", out}, 4},
                            Order{{"-o", out}, 3}}) {
-    Run two;
+    Attempt two;
     two.arguments = {"apply", cut, "--adaptation", "1", "-q"};
     two.arguments.insert(two.arguments.end(), row.arguments.begin(), row.arguments.end());
     EXPECT_EQ(broken_report(run(two), {row.code}), "") << row.arguments[0];

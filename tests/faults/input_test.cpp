@@ -45,7 +45,7 @@ TEST(Reading, parts_and_interruptions_change_nothing) {
 void changed(const std::string& how, const std::vector<int>& codes, const std::string& expected) {
   const std::string folder = work_folder("changed");
   const std::string in = folder + "/in.exr", out = folder + "/out.exr";
-  Run changing;
+  Attempt changing;
   changing.arguments = {"apply", in, "-o", out, "--adaptation", "0.1", "-q", "--threads", "2"};
   changing.folder = in, changing.call = "read", changing.action = "5", changing.at = 0;
   const auto reset = [&] {
@@ -127,7 +127,7 @@ TEST(Reading, the_program_refuses_cut_files_and_leaves_nothing) {
   for (long bytes = 0; bytes < static_cast<long>(size); bytes += step) {
     fs::copy_file(input("in.exr"), folder + "/cut.exr", fs::copy_options::overwrite_existing);
     fs::resize_file(folder + "/cut.exr", static_cast<std::uintmax_t>(bytes));
-    Run cut;
+    Attempt cut;
     cut.arguments = {"apply", folder + "/cut.exr", "-o", folder + "/out.exr", "--adaptation", "0.1", "-q"};
     const Ended ended = run(cut);
     ++seen.tries, ++seen.codes[ended.exit_code];

@@ -64,7 +64,9 @@ void make(const std::string& name, const std::string& file) {
   if (name == "pages.tif") write_pages(file);
   if (name == "studio.ocio") {
     std::ofstream out(file);
-    make_base_config()->serialize(out);
+    const OCIO_NAMESPACE::ConfigRcPtr config = make_base_config();
+    config->setSearchPath("luts");
+    config->serialize(out);
   }
 }
 

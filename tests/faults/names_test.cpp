@@ -33,7 +33,7 @@ class Names : public ::testing::Test {
   }
   /// Runs in the folder, so that a name can begin with -.
   Ended in_folder(std::vector<std::string> arguments) const {
-    Run run_it;
+    Attempt run_it;
     run_it.arguments = std::move(arguments);
     const fs::path here = fs::current_path();
     fs::current_path(folder_);
@@ -45,7 +45,7 @@ class Names : public ::testing::Test {
 };
 
 TEST_F(Names, any_name_can_be_read_and_written) {
-  Run plain;
+  Attempt plain;
   plain.arguments = {"apply", input("in.exr"), "-o", folder_ + "/plain.exr", "--adaptation", "0.1", "-q"};
   ASSERT_EQ(run(plain).exit_code, 0);
   const std::string expected = files_in(folder_).at("plain.exr");

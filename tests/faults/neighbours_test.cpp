@@ -55,7 +55,7 @@ class Neighbours : public ::testing::TestWithParam<Neighbour> {
     if (access(GetParam().program.c_str(), X_OK) != 0) GTEST_SKIP() << GetParam().program << " is not installed";
     folder_ = work_folder("neighbour");
     reset();
-    Run clean = run_of();
+    Attempt clean = run_of();
     clean.call = "event", clean.action = "5", clean.at = 0;
     const Ended ended = run(clean);
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
@@ -69,8 +69,8 @@ class Neighbours : public ::testing::TestWithParam<Neighbour> {
     fs::copy_file(input("big.exr"), folder_ + "/in.exr");
     std::ofstream(folder_ + "/" + GetParam().output) << "old";
   }
-  Run run_of() const {
-    Run out;
+  Attempt run_of() const {
+    Attempt out;
     out.program = GetParam().program;
     out.arguments = GetParam().arguments;
     for (std::string& a : out.arguments)
@@ -79,7 +79,7 @@ class Neighbours : public ::testing::TestWithParam<Neighbour> {
     out.environment = {"OCIO=" + config};
     return out;
   }
-  void count(const Run& faulty, Counted& out) const {
+  void count(const Attempt& faulty, Counted& out) const {
     reset();
     const Ended ended = run(faulty);
     const Files now = files_in(folder_);
@@ -99,7 +99,7 @@ class Neighbours : public ::testing::TestWithParam<Neighbour> {
   Counted full_disk() const {
     Counted out;
     for (int i = 0; i < 50; ++i) {
-      Run faulty = run_of();
+      Attempt faulty = run_of();
       faulty.file_size = 1 + static_cast<long>(whole_.size()) * i / 50;
       faulty.no_size_signal = true;
       count(faulty, out);
@@ -109,7 +109,7 @@ class Neighbours : public ::testing::TestWithParam<Neighbour> {
   Counted at_random(int signal) const {
     Counted out;
     for (int i = 0; i < 100; ++i) {
-      Run faulty = run_of();
+      Attempt faulty = run_of();
       faulty.kill_signal = signal;
       faulty.kill_after = seconds_ * (i + 0.5) / 100;
       count(faulty, out);
@@ -120,7 +120,7 @@ class Neighbours : public ::testing::TestWithParam<Neighbour> {
     Counted out;
     const long calls = calls_.at("malloc");
     for (int i = 0; i < 100; ++i) {
-      Run faulty = run_of();
+      Attempt faulty = run_of();
       faulty.call = "malloc", faulty.action = std::to_string(ENOMEM), faulty.at = 1 + calls * i / 100;
       count(faulty, out);
     }

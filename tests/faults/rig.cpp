@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <thread>
 
@@ -40,7 +41,7 @@ void limit(int resource, long value) {
   setrlimit(static_cast<__rlimit_resource>(resource), &both);
 }
 
-std::vector<std::string> environment_of(const Run& what, const std::string& base) {
+std::vector<std::string> environment_of(const Attempt& what, const std::string& base) {
   std::vector<std::string> out = {"PATH=/usr/bin:/bin"};
   const bool shim = !what.call.empty() || !what.log.empty() || what.jail;
   if (shim) out.push_back("LD_PRELOAD=" SCOTOPIC_FAULT_SHIM);
@@ -67,7 +68,7 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
 
 }  // namespace
 
-int start(const Run& what, const std::string& base) {
+int start(const Attempt& what, const std::string& base) {
   std::vector<std::string> words = {what.program}, variables = environment_of(what, base);
   words.insert(words.end(), what.arguments.begin(), what.arguments.end());
   const std::vector<char*> argv = pointers(words), envp = pointers(variables);
@@ -87,7 +88,7 @@ int start(const Run& what, const std::string& base) {
   _exit(127);
 }
 
-Ended wait_for(int child, const Run& what, const std::string& base) {
+Ended wait_for(int child, const Attempt& what, const std::string& base) {
   const auto began = Clock::now();
   if (what.kill_after >= 0) {
     std::this_thread::sleep_for(std::chrono::duration<double>(what.kill_after));
@@ -110,17 +111,31 @@ Ended wait_for(int child, const Run& what, const std::string& base) {
   return ended;
 }
 
-Ended run(const Run& what) {
+Ended run(const Attempt& what) {
   const std::string base = work_folder("") + "/run-" + std::to_string(getpid());
   return wait_for(start(what, base), what, base);
 }
+
+namespace {
+
+/// OpenImageIO writes the time into TIFF files: "2026:11:25 23:11:17".
+std::string without_date(std::string text) {
+  static const std::regex date("20[0-9][0-9]:[0-9][0-9]:[0-9][0-9] [0-9][0-9]:[0-9][0-9]:[0-9][0-9]");
+  for (std::smatch found; std::regex_search(text, found, date);)
+    text.replace(static_cast<std::size_t>(found.position()), static_cast<std::size_t>(found.length()), "now");
+  return text;
+}
+
+}  // namespace
 
 Files files_in(const std::string& folder) {
   Files out;
   if (!fs::exists(folder)) return out;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string name = entry.path().lexically_relative(folder).string();
-    out[name] = entry.is_directory() ? "/" : contents(entry.path().string());
+    out[name] = entry.is_directory()                   ? "/"
+                : entry.path().extension() == ".tif" ? without_date(contents(entry.path().string()))
+                                                     : contents(entry.path().string());
   }
   return out;
 }

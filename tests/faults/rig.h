@@ -9,7 +9,7 @@
 namespace scotopic::test {
 
 /// A run of the program: where its arguments are, and what goes wrong (tests/faults/shim.cpp says the words).
-struct Run {
+struct Attempt {
   std::string program = SCOTOPIC_PROGRAM;
   std::vector<std::string> arguments;
   std::vector<std::string> environment;   ///< NAME=value, besides those of the fault
@@ -36,11 +36,11 @@ struct Ended {
   std::map<std::string, long> calls;  ///< how many there were, where it ended by itself
 };
 
-Ended run(const Run& what);
+Ended run(const Attempt& what);
 
 /// Starts it and does not wait; wait_for() does.
-int start(const Run& what, const std::string& base);
-Ended wait_for(int child, const Run& what, const std::string& base);
+int start(const Attempt& what, const std::string& base);
+Ended wait_for(int child, const Attempt& what, const std::string& base);
 
 /// Name relative to the folder -> contents ("/": a folder).
 using Files = std::map<std::string, std::string>;

@@ -7,8 +7,8 @@
 namespace scotopic::test {
 namespace {
 
-Run run_of(const Subject& subject) {
-  Run run;
+Attempt run_of(const Subject& subject) {
+  Attempt run;
   run.arguments = arguments_of(*subject.verb, subject.folder);
   run.folder = subject.folder;
   return run;
@@ -46,7 +46,7 @@ Subject subject_of(const WritingVerb& verb) {
   out.folder = work_folder(name);
   out.reset();
   out.before = files_in(out.folder);
-  Run clean = run_of(out);
+  Attempt clean = run_of(out);
   clean.call = "event", clean.action = "5", clean.at = 0;
   const Ended ended = run(clean);
   out.calls = ended.calls;
@@ -62,7 +62,7 @@ void sweep(const Subject& subject, const Fault& fault, long most, Seen& seen) {
   const long calls = found == subject.calls.end() ? 0 : found->second;
   const long tries = std::min(calls, most);
   for (long i = 0; i < tries; ++i) {
-    Run run_with = run_of(subject);
+    Attempt run_with = run_of(subject);
     run_with.call = fault.call, run_with.action = fault.action, run_with.sticky = fault.sticky;
     run_with.at = tries == calls ? i + 1 : 1 + i * (calls - 1) / std::max(1l, tries - 1);
     const std::string where = fault.name + ", " + subject.verb->name + ", " + fault.call + " " +
