@@ -1,6 +1,7 @@
 #!/bin/sh
 # Installs the Debian 12 packages that building, testing and the demonstration need. Quiet; does nothing
 # (and needs no network) where all are there already. Needs root, or sudo.
+#   scripts/install_packages.sh farm   Slurm as well (3 MB), for the test of scripts/farm
 set -eu
 
 build="g++ cmake ninja-build pkg-config libopencolorio-dev libopenimageio-dev libopenexr-dev liblcms2-dev libhwy-dev
@@ -9,6 +10,7 @@ build="g++ cmake ninja-build pkg-config libopencolorio-dev libopenimageio-dev li
 # The programs that looks are tested in, the data that tables are checked against, the night image.
 use="openimageio-tools opencolorio-tools python3-pyopencolorio python3-openimageio python3-scipy
   psychtoolbox-3-common blender-data liblcms2-utils icc-profiles-free ffmpeg xvfb xauth libgl1-mesa-dri"
+[ "${1:-}" != farm ] || use="$use slurmctld slurmd slurm-client munge"
 
 missing=""
 for package in $build $use; do

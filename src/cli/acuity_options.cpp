@@ -45,7 +45,7 @@ void add_acuity_options(CLI::App& verb, AcuityOptions& o) {
     verb.add_option(name, value, text)->type_name(kind)->group(group);
   };
   verb.add_flag("--acuity{global}", o.acuity,
-                "Take away the detail that the dark-adapted eye does not resolve; --acuity=local: less "
+                "Take away the detail that the dark-adapted eye does not resolve; --acuity local: less "
                 "around lamps")
       ->group(group);
   add("--ppd", o.pixels_per_degree, "Pixels per degree of the viewer's field", "X");

@@ -4,17 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/acuity_options.h"
 #include "cli/display_options.h"
 #include "cli/icc_options.h"
-#include "cli/image_options.h"
-#include "cli/operator_options.h"
-#include "cli/precision_options.h"
 #include "cli/program.h"
-#include "cli/scene_numbers.h"
+#include "cli/recipe.h"
+#include "cli/run_frames.h"
 #include "cli/scene_plan.h"
-#include "cli/spectral_options.h"
+#include "cli/scene_settings.h"
+#include "cli/shot.h"
 #include "cli/values.h"
+#include "cli/way_keeper.h"
 #include "image/acuity_rows.h"
 #include "image/apply_image.h"
 #include "image/non_finite.h"
@@ -25,19 +24,18 @@ namespace {
 struct ApplyOptions {
   std::string input;
   std::string output;
-  OperatorOptions appearance;
+  SceneOptions scene;
+  std::string adaptation_from;
   PrecisionOptions precision;
-  BandOptions bands;
-  AcuityOptions acuity;
   DisplayOptions display;
   IccOptions icc;
   std::string non_finite = "keep";
-  ImageOptions image;
+  FrameOptions frames;
   CommonOptions common;
 };
 
-std::vector<Attribute> stamps_of(const AppearanceParameters& p, const OperatorChoice& choice,
-                                 const ImageLayout& layout) {
+std::vector<Attribute> parameter_stamps(const AppearanceParameters& p, const OperatorChoice& choice,
+                                        const ImageLayout& layout) {
   const auto share = [&](double strength) { return p.strength.all * strength; };
   const ColourChannels::Kind kind = layout.light.front().channels.kind;
   const bool own = kind == ColourChannels::Kind::lmsr || kind == ColourChannels::Kind::computed;
@@ -60,12 +58,12 @@ std::vector<Attribute> stamps_of(const AppearanceParameters& p, const OperatorCh
   return stamps;
 }
 
-nlohmann::ordered_json result_of(const ApplyOptions& options, const SceneNumbers& numbers,
+nlohmann::ordered_json result_of(const FramePaths& paths, const SceneNumbers& numbers,
                                  const ImageLayout& layout, const std::vector<Attribute>& stamps,
                                  const PixelSource& source) {
   nlohmann::ordered_json out;
-  out["input"] = options.input;
-  out["output"] = options.output;
+  out["input"] = paths.input;
+  out["output"] = paths.output;
   out["colorspace"] = layout.light.front().space.name;
   out["colorspaceSource"] = layout.light.front().space_reason;
   out["outputColorspace"] = layout.output_space.name;
@@ -92,14 +90,6 @@ void describe_layout(const PixelSource& source, const ColourConfig& config, cons
   for (const Attribute& a : source.attributes(light.index))
     if (a.name == "scotopic:model")
       console.note(source.file() + ": has been through scotopic already; this is the second time");
-}
-
-/// The scene's statistics, where the adaptation depends on them.
-std::optional<SceneStatistics> measure(PixelSource& source, const ImageLayout& layout,
-                                       const ColourConfig& config, const OperatorChoice& choice,
-                                       const KnownNumbers& known) {
-  if (!needs_measurement(known, source.file())) return std::nullopt;
-  return measure_image(source, layout, config, choice.parameters, choice.metering.region);
 }
 
 NonFinite non_finite_policy(const std::string& text) {
@@ -135,71 +125,124 @@ void check_acuity_memory(const SpatialFilter& acuity, const PixelSource& source,
   }
 }
 
-int run_apply(const ApplyOptions& options) {
-  const Console console(options.common);
-  OperatorChoice choice = understand(options.appearance);
-  const PrecisionChoice precision = understand(options.precision);
-  const AcuityChoice acuity_choice = understand(options.acuity);
-  const NonFinite non_finite = non_finite_policy(options.non_finite);
-  ImageRequest request = understand(options.image);
-  const DisplayChoice display_choice = understand(options.display, request);
-  understand(options.icc, request);
-  const SpectralOptions spectral = understand(options.bands, choice.illuminant, options.image.layer);
-  (void)output_format(options.output);
-  const ColourConfig config = ColourConfig::in_force(options.image.config, options.image.limits);
-  check_spaces(request, config);
-  check_view(request, config, console);
-  set_primaries(choice, config);
-  if (const std::string idle = without_effect(options.appearance, choice.parameters); !idle.empty())
+class ApplyJob : public FrameJob {
+ public:
+  ApplyJob(const ApplyOptions& options, const Console& console);
+
+  SceneSettings& scene() { return settings_; }
+  /// Whether the tone map of each image follows that image.
+  bool measures_display() const { return display_.tone && !display_.range; }
+  std::string settings() const override;
+  const Limits& limits() const override { return settings_.limits; }
+  nlohmann::ordered_json run(const FrameTask& task, const Console& console) override;
+
+ private:
+  /// One image: what it holds, and what is done to it.
+  struct Seen {
+    Scene scene;
+    SceneNumbers numbers;
+    AngularResolution resolution;
+    ScenePlan plan;
+  };
+
+  Seen look(const FramePaths& paths, const Console& console) const;
+  std::vector<Attribute> stamps_of(const Seen& frame, const std::string& way, const std::string& recipe) const;
+
+  WayKeeper ways_;
+  NonFinite non_finite_;
+  ImageRequest asked_;
+  DisplayChoice display_;
+  SceneSettings settings_;
+};
+
+ApplyJob::ApplyJob(const ApplyOptions& o, const Console& console)
+    : ways_(understand(o.precision)),
+      non_finite_(non_finite_policy(o.non_finite)),
+      asked_(understand(o.scene.image)),
+      display_(understand(o.display, asked_)),
+      settings_((understand(o.icc, asked_), o.scene), o.common.threads) {
+  settings_.request = asked_;
+  check_view(asked_, settings_.config, console);
+  if (const std::string idle = without_effect(o.scene.appearance, settings_.choice.parameters); !idle.empty())
     console.note("without effect under --model safko2019: " + idle);
-  set_threads(options.common.threads);
-  OutputFile file(options.output);
-  const std::unique_ptr<PixelSource> source =
-      open_input(options.input, spectral, options.image.limits, console);
-  ImageLayout layout = plan_layout(*source, options.output, config, request);
-  describe_layout(*source, config, layout, console);
-  if (non_finite == NonFinite::error) refuse_non_finite(*source, layout, config);
+}
 
-  const KnownNumbers known = known_numbers(choice, *source, layout, console);
-  const std::optional<SceneStatistics> statistics = measure(*source, layout, config, choice, known);
-  const SceneNumbers numbers =
-      settle(known, statistics ? metered(*statistics, choice.metering) : 0, source->file());
-  console.note(source->file() + ": " + describe(numbers));
-  AppearanceParameters& parameters = choice.parameters;
-  parameters.adaptation = numbers.adaptation;
-  parameters.white_luminance = numbers.white_luminance;
-  const AngularResolution resolution = angular_resolution(acuity_choice, *source, layout);
-  const ScenePlan plan =
-      plan_of(choice, plan_request(choice, acuity_choice, resolution), statistics ? &*statistics : nullptr);
-  console.note(source->file() + ": " + plan_line(plan));
-  parameters = plan.parameters;
+std::string ApplyJob::settings() const {
+  const std::optional<double>& adaptation = settings_.choice.adaptation;
+  return colour_identity(settings_.config) + (adaptation ? fmt::format(" {:a}", *adaptation) : "");
+}
+
+/// Opens the image and decides what is computed, after a look at the pixels where the options leave that to them.
+ApplyJob::Seen ApplyJob::look(const FramePaths& paths, const Console& console) const {
+  Seen frame;
+  Scene& scene = frame.scene;
+  scene = open_scene(settings_, paths.input, paths.output, console);
+  PixelSource& source = *scene.source;
+  describe_layout(source, settings_.config, scene.layout, console);
+  if (non_finite_ == NonFinite::error) refuse_non_finite(source, scene.layout, settings_.config);
+  const MeteredScene metered = meter(scene, settings_, false);
+  frame.numbers = metered.numbers;
+  console.note(source.file() + ": " + describe(frame.numbers));
+  OperatorChoice choice = settings_.choice;
+  choice.parameters.adaptation = frame.numbers.adaptation;
+  choice.parameters.white_luminance = frame.numbers.white_luminance;
+  frame.resolution = angular_resolution(settings_.acuity, source, scene.layout);
+  frame.plan = plan_of(choice, plan_request(choice, settings_.acuity, frame.resolution),
+                       metered.statistics ? &*metered.statistics : nullptr);
+  console.note(source.file() + ": " + plan_line(frame.plan));
+  return frame;
+}
+
+std::vector<Attribute> ApplyJob::stamps_of(const Seen& frame, const std::string& way, const std::string& recipe) const {
+  std::vector<Attribute> stamps = parameter_stamps(frame.plan.parameters, settings_.choice, frame.scene.layout);
+  stamps.push_back({"scotopic:precision", way});
+  if (frame.plan.acuity)
+    stamps.push_back({"scotopic:acuityPixelsPerDegree", frame.resolution.pixels_per_degree});
+  if (!recipe.empty()) stamps.push_back({recipe_attribute, recipe});
+  return stamps;
+}
+
+nlohmann::ordered_json ApplyJob::run(const FrameTask& task, const Console& console) {
+  OutputFile file(task.paths.output);
+  Seen frame = look(task.paths, console);
+  PixelSource& source = *frame.scene.source;
+  ImageLayout& layout = frame.scene.layout;
+  const AppearanceParameters& parameters = frame.plan.parameters;
   const std::unique_ptr<SpatialFilter> acuity =
-      plan.acuity ? acuity_filter(acuity_choice, parameters, resolution, console) : nullptr;
-
-  if (acuity) check_acuity_memory(*acuity, *source, layout, options.image.limits);
-
-  const ChosenWay way = settle(precision, parameters, has_receptors(layout), console);
-  std::vector<Attribute> stamps = stamps_of(parameters, choice, layout);
-  stamps.push_back({"scotopic:precision", way.name});
-  if (acuity) stamps.push_back({"scotopic:acuityPixelsPerDegree", resolution.pixels_per_degree});
-  correct_stamps(stamps, display_choice, layout);
-  const NonFiniteWatch watch(non_finite);
-  const RowOperator apply = watch.watched(plan.nothing() ? RowOperator{} : way.apply);
+      frame.plan.acuity ? acuity_filter(settings_.acuity, parameters, frame.resolution, console) : nullptr;
+  if (acuity) check_acuity_memory(*acuity, source, layout, settings_.limits);
+  const ChosenWay way = ways_.way(parameters, has_receptors(layout), console);
+  std::vector<Attribute> stamps = stamps_of(frame, way.name, task.recipe);
+  correct_stamps(stamps, display_, layout);
+  const NonFiniteWatch watch(non_finite_);
+  const RowOperator apply = watch.watched(frame.plan.nothing() ? RowOperator{} : way.apply);
   SpatialFilters filters;
   if (acuity) filters.push_back(acuity.get());
   const DisplayStage display =
-      display_stage(display_choice, parameters, *source, layout, config, apply, filters, console);
+      display_stage(display_, parameters, source, layout, settings_.config, apply, filters, console);
   if (display.filter) filters.push_back(display.filter.get());
   stamps.insert(stamps.end(), display.stamps.begin(), display.stamps.end());
   set_stamps(layout, stamps);
-  apply_image(*source, layout, config, apply, file, nullptr, filters);
-  nlohmann::ordered_json result = result_of(options, numbers, layout, stamps, *source);
-  result["effects"] = plan_json(plan);
-  result["nonFinite"] = report_non_finite(watch, non_finite, *source, layout, config, console);
+  apply_image(source, layout, settings_.config, apply, file, task.progress, filters);
+  nlohmann::ordered_json result = result_of(task.paths, frame.numbers, layout, stamps, source);
+  result["effects"] = plan_json(frame.plan);
+  result["nonFinite"] = report_non_finite(watch, non_finite_, source, layout, settings_.config, console);
   if (!way.report.is_null()) result["ways"] = way.report;
   if (!display.report.is_null()) result["display"] = display.report;
-  console.result(result);
-  return static_cast<int>(ExitCode::done);
+  return result;
+}
+
+int run_apply(const ApplyOptions& options) {
+  const Console console(options.common);
+  (void)output_format(options.output);
+  const std::vector<Frame> frames = frames_of(options.frames, options.input, options.output);
+  ApplyJob job(options, console);
+  check_shot(options.adaptation_from, job.scene().choice, frames);
+  check_places(frames, options.frames);
+  settle_shot(options.adaptation_from, job.scene(), frames, options.frames, console);
+  if (frames.size() > 1 && job.measures_display())
+    console.note("each frame's range is mapped to the display by itself, which can flicker: --display-range holds one");
+  return run_frames("apply", job, frames, options.frames, console);
 }
 
 }  // namespace
@@ -207,22 +250,28 @@ int run_apply(const ApplyOptions& options) {
 void add_apply(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<ApplyOptions>();
   CLI::App& verb = *program.add_subcommand("apply", "An image as the dark-adapted eye sees it");
-  verb.footer("Example: scotopic apply night.exr -o seen.exr --adaptation 0.05");
+  verb.footer(
+      "Examples:\n"
+      "  scotopic apply night.exr -o seen.exr --adaptation 0.05\n"
+      "  scotopic apply in.####.exr -o seen.####.exr --frames 1-240 --adaptation-from frames --white-luminance 5");
   verb.add_option("input", options->input, "EXR, TIFF, PNG, JPEG or HDR: RGB, L, M, S, R, or spectral bands")
       ->required()
       ->type_name("IN");
   verb.add_option("-o,--output", options->output, "EXR, TIFF, PNG or JPEG, by its extension")
       ->required()
       ->type_name("OUT");
-  add_operator_options(verb, options->appearance);
+  SceneOptions& scene = options->scene;
+  add_operator_options(verb, scene.appearance);
+  add_shot_options(verb, options->adaptation_from);
+  add_frame_options(verb, options->frames);
   add_precision_options(verb, options->precision);
-  add_band_options(verb, options->bands);
-  add_acuity_options(verb, options->acuity);
+  add_band_options(verb, scene.bands);
+  add_acuity_options(verb, scene.acuity);
   add_display_options(verb, options->display);
   verb.add_option("--nonfinite", options->non_finite, "NaN and infinite pixels: keep, clean (to 0), or error")
       ->type_name("WHAT");
-  add_input_options(verb, options->image);
-  add_output_options(verb, options->image);
+  add_input_options(verb, scene.image);
+  add_output_options(verb, scene.image);
   add_icc_options(verb, options->icc);
   add_common_options(verb, options->common);
   on_command_line(verb, invocation, options, run_apply);

@@ -1,9 +1,14 @@
 #include "cli/console.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <mutex>
+#include <new>
 #include <string_view>
 
 #include "image/output_file.h"
@@ -38,7 +43,57 @@ std::string written_text(int files) {
   return files == 1 ? "1 file had been written" : fmt::format("{} files had been written", files);
 }
 
-void say(std::FILE* stream, const std::string& line) { std::fputs((line + "\n").c_str(), stream); }
+/// stderr by a descriptor of its own: while libpng is kept quiet, descriptor 2 leads nowhere.
+class ErrorLines {
+ public:
+  ErrorLines() {
+    const int own = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+    if (own >= 0) stream_ = fdopen(own, "w");
+    if (!stream_) stream_ = stderr;
+    terminal = isatty(fileno(stream_)) == 1;
+  }
+
+  void say(const std::string& line) {
+    const std::lock_guard guard(lock_);
+    erase();
+    put(line + "\n");
+    draw();
+  }
+  void set_status(const std::string& line) {
+    const std::lock_guard guard(lock_);
+    erase();
+    status_ = line;
+    draw();
+  }
+  int columns() const {
+    winsize size = {};
+    return ioctl(fileno(stream_), TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+  }
+
+  bool terminal = false;
+
+ private:
+  void erase() {
+    if (!status_.empty()) put("\r" + std::string(status_.size(), ' ') + "\r");
+  }
+  void draw() {
+    if (!status_.empty()) put(status_);
+  }
+  void put(const std::string& text) {
+    std::fputs(text.c_str(), stream_);
+    std::fflush(stream_);
+  }
+
+  std::mutex lock_;
+  std::FILE* stream_ = nullptr;
+  std::string status_;
+};
+
+ErrorLines& errors() {
+  // Never destroyed: threads may speak to the very end.
+  static auto* const lines = new ErrorLines;
+  return *lines;
+}
 
 }  // namespace
 
@@ -64,10 +119,9 @@ std::string printable(const std::string& text) {
 }
 
 void Console::line(const std::string& text) const {
-  if (options_.json)
-    say(stderr, one_line_json({{"note", text}}));
-  else
-    say(stderr, "scotopic: " + printable(text));
+  if (sink_) sink_(text);
+  else if (options_.json) errors().say(one_line_json({{"note", text}}));
+  else errors().say("scotopic: " + printable(text));
 }
 
 void Console::note(const std::string& text) const {
@@ -79,8 +133,12 @@ void Console::detail(const std::string& text) const {
 }
 
 void Console::result(const nlohmann::ordered_json& object) const {
-  if (options_.json) say(stdout, one_line_json(object));
+  if (options_.json) std::fputs((one_line_json(object) + "\n").c_str(), stdout);
 }
+
+bool on_terminal() { return errors().terminal; }
+int terminal_columns() { return errors().columns(); }
+void show_status(const std::string& line) { errors().set_status(line); }
 
 int report(const Error& error, bool json) {
   const int code = static_cast<int>(error.code());
@@ -90,13 +148,25 @@ int report(const Error& error, bool json) {
                        {"file", error.file()},
                        {"message", error.what()},
                        {"filesWritten", files_in_place()}};
-    say(stderr, one_line_json(object));
+    errors().say(one_line_json(object));
   } else {
     const std::string file = error.file().empty() ? "" : printable(error.file()) + ": ";
-    say(stderr,
+    errors().say(
         "scotopic: " + file + printable(error.what()) + " (" + written_text(files_in_place()) + ")");
   }
   return code;
+}
+
+Error error_of(const std::exception_ptr& failure) {
+  try {
+    std::rethrow_exception(failure);
+  } catch (const Error& error) {
+    return error;
+  } catch (const std::bad_alloc&) {
+    return Error(ExitCode::limit, "", "out of memory");
+  } catch (const std::exception& error) {
+    return Error(ExitCode::internal, "", std::string("internal error: ") + error.what());
+  }
 }
 
 }  // namespace scotopic

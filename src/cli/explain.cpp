@@ -5,13 +5,11 @@
 
 #include "adaptation/mesopic.h"
 #include "cli/explain_config.h"
+#include "cli/explain_frames.h"
 #include "cli/explain_report.h"
-#include "cli/image_options.h"
-#include "cli/operator_options.h"
 #include "cli/program.h"
-#include "cli/scene_numbers.h"
 #include "cli/scene_plan.h"
-#include "cli/spectral_options.h"
+#include "cli/scene_settings.h"
 #include "image/output_file.h"
 
 namespace scotopic {
@@ -19,10 +17,8 @@ namespace {
 
 struct ExplainOptions {
   std::string input;
-  OperatorOptions appearance;
-  BandOptions bands;
-  AcuityOptions acuity;
-  ImageOptions image;
+  SceneOptions scene;
+  FrameOptions frames;
   std::string plot;
   CommonOptions common;
 };
@@ -96,7 +92,7 @@ bool is_config(const std::string& file) { return file.size() > 5 && file.rfind("
 
 int run_explain_config(const ExplainOptions& options, const Console& console) {
   nlohmann::ordered_json looks = nlohmann::ordered_json::array();
-  for (const ExplainedLook& look : explain_looks(ColourConfig::from_file(options.input, options.image.limits))) {
+  for (const ExplainedLook& look : explain_looks(ColourConfig::from_file(options.input, options.scene.image.limits))) {
     if (!console.json()) fmt::print("{}\n  does {}\n", look.name, look.does);
     if (!console.json() && !look.description.empty()) fmt::print("  {}\n", look.description);
     looks.push_back({{"name", look.name}, {"does", look.does}, {"description", look.description}});
@@ -105,47 +101,37 @@ int run_explain_config(const ExplainOptions& options, const Console& console) {
   return static_cast<int>(ExitCode::done);
 }
 
+int run_explain_image(const ExplainOptions& options, const SceneSettings& settings, std::optional<OutputFile>& plot,
+                      const Console& console) {
+  // Nothing is written: the layout only says where the light is.
+  Scene scene = open_scene(settings, options.input, "none.exr", console);
+  const MeteredScene metered = meter(scene, settings, true);
+  const SceneStatistics& statistics = *metered.statistics;
+  const SceneNumbers& numbers = metered.numbers;
+  OperatorChoice choice = settings.choice;
+  choice.parameters.adaptation = numbers.adaptation;
+  choice.parameters.white_luminance = numbers.white_luminance;
+  const PlanRequest request =
+      plan_request(choice, settings.acuity, angular_resolution(settings.acuity, *scene.source, scene.layout));
+  const ScenePlan plan = plan_of(choice, request, &statistics);
+  const std::vector<double> costs = measure_costs(request, plan, statistics);
+  const LightNumbers light = light_of(statistics, numbers);
+  if (plot) write_text(*plot, luminance_svg(statistics, numbers.white_luminance, numbers.adaptation));
+  if (!console.json()) print(light, numbers, statistics, plan, costs);
+  console.result(result_of(options, light, numbers, statistics, plan, costs, *scene.source));
+  return static_cast<int>(ExitCode::done);
+}
+
 int run_explain(const ExplainOptions& options) {
   const Console console(options.common);
   if (is_config(options.input)) return run_explain_config(options, console);
-  OperatorChoice choice = understand(options.appearance);
-  const AcuityChoice acuity = understand(options.acuity);
-  const ImageRequest request = understand(options.image);
-  const SpectralOptions spectral = understand(options.bands, choice.illuminant, options.image.layer);
-  const ColourConfig config = ColourConfig::in_force(options.image.config, options.image.limits);
-  check_spaces(request, config);
-  set_primaries(choice, config);
-  set_threads(options.common.threads);
+  const std::vector<Frame> frames = frames_of(options.frames, options.input, "");
+  const SceneSettings settings(options.scene, options.common.threads);
+  check_places(frames, options.frames);
   std::optional<OutputFile> plot;
   if (!options.plot.empty()) plot.emplace(options.plot);
-  const std::unique_ptr<PixelSource> source =
-      open_input(options.input, spectral, options.image.limits, console);
-  // Nothing is written: the layout only says where the light is.
-  const ImageLayout layout = plan_layout(*source, "none.exr", config, request);
-
-  const KnownNumbers known = known_numbers(choice, *source, layout, console);
-  (void)needs_measurement(known, source->file());
-  const SceneStatistics statistics = measure_image(*source, layout, config, choice.parameters);
-  const bool part = !known.adaptation && choice.metering.region;
-  const double adapted =
-      metered(part ? measure_image(*source, layout, config, choice.parameters, choice.metering.region) : statistics,
-              choice.metering);
-  const SceneNumbers numbers = settle(known, adapted, source->file());
-  choice.parameters.adaptation = numbers.adaptation;
-  choice.parameters.white_luminance = numbers.white_luminance;
-  const PlanRequest request_of_plan =
-      plan_request(choice, acuity, angular_resolution(acuity, *source, layout));
-  const ScenePlan plan = plan_of(choice, request_of_plan, &statistics);
-  const std::vector<double> costs = measure_costs(request_of_plan, plan, statistics);
-  const LightNumbers light = light_of(statistics, numbers);
-  if (plot) {
-    const std::string svg = luminance_svg(statistics, numbers.white_luminance, numbers.adaptation);
-    (void)plot->write(svg.data(), svg.size());
-    plot->commit();
-  }
-  if (!console.json()) print(light, numbers, statistics, plan, costs);
-  console.result(result_of(options, light, numbers, statistics, plan, costs, *source));
-  return static_cast<int>(ExitCode::done);
+  if (!frames.front().number) return run_explain_image(options, settings, plot, console);
+  return explain_frames(settings, frames, options.frames, plot, console);
 }
 
 }  // namespace
@@ -155,15 +141,18 @@ void add_explain(CLI::App& program, Invocation& invocation) {
   CLI::App& verb = *program.add_subcommand("explain", "What light a scene holds, and what it calls for");
   verb.footer("Examples:\n"
       "  scotopic explain night.exr --white-luminance 10\n"
+      "  scotopic explain in.####.exr --frames 1-240 --white-luminance 10 --plot shot.svg\n"
       "  scotopic explain ocio_config/config.ocio");
   verb.add_option("input", options->input, "As for apply; or an OCIO config (.ocio): what its looks do")
       ->required()
       ->type_name("IN|CONFIG");
-  add_operator_options(verb, options->appearance);
-  add_band_options(verb, options->bands);
-  add_acuity_options(verb, options->acuity);
-  add_input_options(verb, options->image);
-  verb.add_option("--plot", options->plot, "The luminance histogram as an SVG file")->type_name("FILE");
+  add_operator_options(verb, options->scene.appearance);
+  add_reading_frame_options(verb, options->frames);
+  add_band_options(verb, options->scene.bands);
+  add_acuity_options(verb, options->scene.acuity);
+  add_input_options(verb, options->scene.image);
+  verb.add_option("--plot", options->plot, "The luminance histogram, or a sequence's adaptation, as an SVG file")
+      ->type_name("FILE");
   add_common_options(verb, options->common);
   on_command_line(verb, invocation, options, run_explain);
 }

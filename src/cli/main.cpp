@@ -1,8 +1,4 @@
 // scotopic VERB IN... -o OUT [options]
-#include "cli/program.h"
+#include "cli/verbs.h"
 
-int main(int argc, char** argv) {
-  return scotopic::run_program(
-      argc, argv, {scotopic::add_apply, scotopic::add_lmsr, scotopic::add_explain, scotopic::add_bake, scotopic::add_check,
-                   scotopic::add_time});
-}
+int main(int argc, char** argv) { return scotopic::run_program(argc, argv, scotopic::verbs()); }

@@ -37,6 +37,7 @@ enum class AcuityWish { no, if_told, yes };
 struct OperatorChoice {
   AppearanceParameters parameters;
   std::optional<double> adaptation;       ///< nullopt: auto, by `metering`
+  std::string adaptation_source = "--adaptation";
   AdaptationMethod metering;
   std::optional<double> white_luminance;  ///< nullopt: the file's, or from the adaptation
   bool plan_effects = false;              ///< --effects auto

@@ -4,8 +4,9 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
-#include <new>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "cli/process.h"
 #include "image/names.h"
@@ -57,13 +58,25 @@ int run_verb(const Invocation& invocation, bool json) {
     const int code = invocation.run();
     check_stdout();
     return code;
-  } catch (const Error& error) {
-    return report(error, json);
-  } catch (const std::bad_alloc&) {
-    return report(Error(ExitCode::limit, "", "out of memory"), json);
-  } catch (const std::exception& error) {
-    return report(Error(ExitCode::internal, "", std::string("internal error: ") + error.what()), json);
+  } catch (...) {
+    return report(error_of(std::current_exception()), json);
   }
+}
+
+/// The command line with "--acuity local" as "--acuity=local": the option may also stand alone, before a file's name.
+/// Last word first, as CLI11 wants a list.
+std::vector<std::string> arguments_of(int argc, char** argv) {
+  std::vector<std::string> out;
+  for (int i = argc - 1; i > 0; --i) {
+    const std::string_view word = argv[i];
+    if (std::string_view(argv[i - 1]) == "--acuity" && (word == "local" || word == "global" || word == "off")) {
+      out.push_back("--acuity=" + std::string(word));
+      --i;
+    } else {
+      out.emplace_back(word);
+    }
+  }
+  return out;
 }
 
 /// Help or the version, on stdout.
@@ -78,6 +91,7 @@ int print_wish(const CLI::App& program, const CLI::Success& wish, bool json) {
 int run_program(int argc, char** argv, const std::vector<AddVerb>& verbs) {
   const bool json = asks_for_json(argc, argv);
   prepare_process(json);
+  (void)on_terminal();  // before anything else may close or lend descriptor 2
   CLI::App program("Shows images as the dark-adapted eye sees them: rods, cones, and the way between.",
                    "scotopic");
   program.set_version_flag("--version", "scotopic " SCOTOPIC_VERSION);
@@ -85,7 +99,7 @@ int run_program(int argc, char** argv, const std::vector<AddVerb>& verbs) {
   Invocation invocation;
   for (const AddVerb add : verbs) add(program, invocation);
   try {
-    program.parse(argc, argv);
+    program.parse(arguments_of(argc, argv));
   } catch (const CLI::Success& wish) {
     return print_wish(program, wish, json);
   } catch (const CLI::ParseError& error) {

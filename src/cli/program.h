@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/console.h"
+#include "cli/recipe.h"
 
 namespace scotopic {
 
@@ -25,7 +26,8 @@ int run_program(int argc, char** argv, const std::vector<AddVerb>& verbs);
 template <typename Options>
 void on_command_line(CLI::App& verb, Invocation& invocation, const std::shared_ptr<Options>& options,
                      int (*run)(const Options&)) {
-  verb.callback([&invocation, options, run] {
+  verb.callback([&verb, &invocation, options, run] {
+    options->common.typed = typed_options(verb);
     invocation.common = &options->common;
     invocation.run = [options, run] { return run(*options); };
   });

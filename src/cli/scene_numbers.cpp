@@ -12,16 +12,17 @@ namespace {
 // Photographic middle grey: the reflectance that a scene's log-average is taken to be.
 constexpr double middle_grey = 0.18;
 
+}  // namespace
+
 std::optional<double> unit_of(const KnownNumbers& known) {
   return known.white_luminance ? known.white_luminance : known.file_unit;
 }
-
-}  // namespace
 
 KnownNumbers known_numbers(const OperatorChoice& choice, const PixelSource& source, const ImageLayout& layout,
                            const Console& console) {
   KnownNumbers known;
   known.adaptation = choice.adaptation;
+  known.adaptation_source = choice.adaptation_source;
   known.metering = choice.metering.description;
   known.white_luminance = choice.white_luminance;
   const LightPicture& light = layout.light.front();
@@ -52,7 +53,7 @@ SceneNumbers settle(const KnownNumbers& known, double metered, const std::string
   const std::optional<double> unit = unit_of(known);
   if (known.adaptation) {
     out.adaptation = *known.adaptation;
-    out.adaptation_source = "--adaptation";
+    out.adaptation_source = known.adaptation_source;
   } else {
     out.adaptation = metered * unit.value();
     out.adaptation_source = "auto: " + known.metering;

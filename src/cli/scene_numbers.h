@@ -19,7 +19,8 @@ struct SceneNumbers {
 
 /// What is known before a pixel is read.
 struct KnownNumbers {
-  std::optional<double> adaptation;       ///< --adaptation
+  std::optional<double> adaptation;       ///< --adaptation, or a shot's
+  std::string adaptation_source = "--adaptation";
   std::optional<double> white_luminance;  ///< --white-luminance
   std::optional<double> file_unit;        ///< the file's own
   std::string file_unit_source;
@@ -33,6 +34,9 @@ KnownNumbers known_numbers(const OperatorChoice& choice, const PixelSource& sour
 /// True if the adaptation is to be metered. Error(usage) if that alone would not do: an average
 /// in image values tells no luminance where nobody knows the unit.
 bool needs_measurement(const KnownNumbers& known, const std::string& file);
+
+/// cd/m2 that image value 1 stands for, as told by the user, else by the file.
+std::optional<double> unit_of(const KnownNumbers& known);
 
 /// The user's unit, else the file's, else La/.18: the scene's middle grey is what the eye is adapted to.
 /// `metered` in image values, where needed; Error(input) if it is 0.

@@ -228,13 +228,13 @@ std::deque<AcuityRows> filter_rows(const SpatialFilters& filters, const Picture&
   return out;
 }
 
-std::int64_t all_rows(const ImageLayout& layout) {
+}  // namespace
+
+std::int64_t rows_to_write(const ImageLayout& layout) {
   std::int64_t rows = 0;
   for (const OutputPicture& out : layout.outputs) rows += out.copy ? 0 : out.picture.data.height();
   return rows;
 }
-
-}  // namespace
 
 void set_threads(int count) {
   const int threads = count > 0 ? count : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -321,7 +321,7 @@ void apply_image(PixelSource& source, const ImageLayout& layout, const ColourCon
                  const RowOperator& apply, OutputFile& file, const Progress& progress,
                  const SpatialFilters& filters) {
   const std::unique_ptr<PixelSink> sink = open_sink(layout.format, file, source, layout.outputs);
-  const std::int64_t total = all_rows(layout);
+  const std::int64_t total = rows_to_write(layout);
   std::int64_t done = 0;
   Band in;
   Band out;

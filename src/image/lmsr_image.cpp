@@ -121,8 +121,10 @@ void make_lmsr_layout(ImageLayout& layout, const std::string& output) {
 }
 
 void write_lmsr(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-                const RodChoice& rods, OutputFile& file) {
+                const RodChoice& rods, OutputFile& file, const Progress& progress) {
   const std::unique_ptr<PixelSink> sink = open_sink(layout.format, file, source, layout.outputs);
+  const std::int64_t total = rows_to_write(layout);
+  std::int64_t done = 0;
   Band in;
   Band out;
   for (std::size_t i = 0; i < layout.outputs.size(); ++i) {
@@ -136,6 +138,8 @@ void write_lmsr(PixelSource& source, const ImageLayout& layout, const ColourConf
       source.read(layout.outputs[i].source, y0, rows, in);
       run.run(in, out);
       sink->write(i, out);
+      done += rows;
+      if (progress) progress(done, total);
     });
   }
   sink->finish();

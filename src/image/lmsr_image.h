@@ -19,6 +19,6 @@ void make_lmsr_layout(ImageLayout& layout, const std::string& output);
 /// cones from XYZ and rods by `rods`. Same bytes for any number of threads. Half: values beyond its range
 /// become its largest; night light below 6e-8 units is lost.
 void write_lmsr(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-                const RodChoice& rods, OutputFile& file);
+                const RodChoice& rods, OutputFile& file, const Progress& progress = nullptr);
 
 }  // namespace scotopic

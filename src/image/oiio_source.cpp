@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <mutex>
 
 namespace scotopic {
 namespace {
@@ -25,23 +26,32 @@ std::optional<double> float_attribute(const OIIO::ImageSpec& spec, const char* n
   return value > 0 ? std::optional<double>(value) : std::nullopt;
 }
 
-/// libpng prints its complaints itself; while this lives, nobody hears them. They come back as return values.
+/// libpng prints its complaints itself; while one of these lives, nobody hears them. They come back as return values.
+/// Several threads may read at once: the first takes descriptor 2 away, the last gives it back.
 class StderrHeld {
  public:
-  StderrHeld() : before_(dup(STDERR_FILENO)), nothing_(open("/dev/null", O_WRONLY | O_CLOEXEC)) {
-    if (before_ >= 0 && nothing_ >= 0) dup2(nothing_, STDERR_FILENO);
+  StderrHeld() {
+    const std::lock_guard guard(lock);
+    if (holders++ > 0) return;
+    before = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+    const int nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (before >= 0 && nothing >= 0) dup2(nothing, STDERR_FILENO);
+    if (nothing >= 0) close(nothing);
   }
   ~StderrHeld() {
-    if (before_ >= 0 && nothing_ >= 0) dup2(before_, STDERR_FILENO);
-    if (before_ >= 0) close(before_);
-    if (nothing_ >= 0) close(nothing_);
+    const std::lock_guard guard(lock);
+    if (--holders > 0 || before < 0) return;
+    dup2(before, STDERR_FILENO);
+    close(before);
+    before = -1;
   }
   StderrHeld(const StderrHeld&) = delete;
   StderrHeld& operator=(const StderrHeld&) = delete;
 
  private:
-  int before_;
-  int nothing_;
+  static inline std::mutex lock;
+  static inline int holders = 0;
+  static inline int before = -1;
 };
 
 /// What OpenImageIO's readers keep: a tile, or the rows of a strip.

@@ -12,6 +12,11 @@
 
 namespace scotopic {
 
+struct ImageLayout;
+
+/// Rows of all pictures that are computed, not copied.
+std::int64_t rows_to_write(const ImageLayout& layout);
+
 /// Calls `work(first, last)` for the rows of a band on all threads; exceptions reach the caller.
 template <typename Work>
 void parallel_rows(int rows, int chunk_rows, Work work) {
