@@ -9,6 +9,7 @@
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputPart.h>
 #include <OpenEXR/ImfPartType.h>
@@ -19,6 +20,7 @@
 #include <map>
 #include <new>
 #include <set>
+#include <stdexcept>
 
 #include "image/error.h"
 #include "image/exr_source.h"
@@ -37,6 +39,23 @@ class ExrStream : public Imf::OStream {
   }
   std::uint64_t tellp() override { return static_cast<std::uint64_t>(file_.tell()); }
   void seekp(std::uint64_t position) override { file_.seek(static_cast<std::int64_t>(position)); }
+
+ private:
+  OutputFile& file_;
+};
+
+/// The same file, read back.
+class ExrReadBack : public Imf::IStream {
+ public:
+  explicit ExrReadBack(OutputFile& file) : Imf::IStream(file.path().c_str()), file_(file) { file_.seek(0); }
+
+  bool read(char data[], int size) override {
+    const auto wanted = static_cast<std::size_t>(size);
+    if (file_.read(data, wanted) != wanted) throw std::runtime_error("it ends too early");
+    return file_.tell() < file_.size();
+  }
+  std::uint64_t tellg() override { return static_cast<std::uint64_t>(file_.tell()); }
+  void seekg(std::uint64_t position) override { file_.seek(static_cast<std::int64_t>(position)); }
 
  private:
   OutputFile& file_;
@@ -156,6 +175,13 @@ class ExrSink : public PixelSink {
 
   void finish() override {
     guarded([&] { exr_.reset(); });  // writes the chunk tables
+    // Where memory ends within a thread of its own OpenEXR leaves a chunk out and says nothing.
+    guarded([&] {
+      ExrReadBack stream(file_);
+      const Imf::MultiPartInputFile written(stream);
+      for (int part = 0; part < written.parts(); ++part)
+        if (!written.partComplete(part)) throw std::runtime_error("a chunk of it is missing");
+    });
   }
 
  private:

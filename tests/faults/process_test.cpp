@@ -19,6 +19,7 @@ const WritingVerb& verb(const std::string& name) {
 }
 
 TEST(Memory, the_kth_allocation_fails) {
+  if (!long_form()) GTEST_SKIP() << "NOTICE: only in the long form (scripts/faults.sh)";
   for (const bool on : {false, true}) {
     Seen seen;
     const Fault fault = {on ? "no memory from the k-th allocation on" : "the k-th allocation fails", "malloc",
