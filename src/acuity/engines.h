@@ -47,6 +47,7 @@ enum Mean {
   mean_lab,                  ///< 3: scaled CIELAB
   mean_light = mean_lab + 3  ///< 3: X/Xn, Y/Yn, Z/Zn
 };
+/// What is kept of the pixels of a cell that look alike.
 struct alignas(32) Cluster {
   float means[8];
   /// Of what means has at the same place; those of L, a, b are used.
@@ -65,8 +66,11 @@ struct CellRow {
 /// Image rows with `margin` absent pixels left and right: for each row six planes of `stride` floats, scaled
 /// L, a, b and linear R, G, B. One buffer, so that a place in the window is one offset.
 struct LabRows {
+  /// Room for `row_count` rows of `width` pixels and the margins.
   LabRows(int width, int margin_pixels, int row_count);
+  /// First plane of row `i`, at its left margin.
   float* row(int i) { return values.get() + static_cast<std::ptrdiff_t>(i) * 6 * stride; }
+  /// The same, to read.
   const float* row(int i) const { return values.get() + static_cast<std::ptrdiff_t>(i) * 6 * stride; }
 
   int margin;

@@ -22,6 +22,7 @@ enum class AcuityEngine { automatic, window, cells };
 /// How far the Gaussian reaches and how finely cells are divided. Error bounds: docs/acuity.md.
 enum class AcuityQuality { draft, normal, fine };
 
+/// What the filter is told; everything has its domain.
 struct AcuityParameters {
   /// Standard deviation in space, pixels; >= 0 and finite. 0 (or too small to reach a neighbour): identity.
   double sigma = 0.0;
@@ -80,7 +81,9 @@ class SpatialFilter {
 
  protected:
   SpatialFilter() = default;
+  /// Filters move; what is moved from can only be destroyed.
   SpatialFilter(SpatialFilter&&) = default;
+  /// See above.
   SpatialFilter& operator=(SpatialFilter&&) = default;
 };
 
@@ -94,7 +97,9 @@ class AcuityFilter : public SpatialFilter {
   /// Throws std::invalid_argument where a parameter is outside its stated domain.
   explicit AcuityFilter(const AcuityParameters& parameters);
   ~AcuityFilter() override;
+  /// What is moved from can only be destroyed.
   AcuityFilter(AcuityFilter&&) noexcept;
+  /// See above.
   AcuityFilter& operator=(AcuityFilter&&) noexcept;
 
   int halo() const noexcept override;

@@ -8,6 +8,7 @@
 
 namespace scotopic {
 
+/// What a filter with a sigma of its own for each pixel is told.
 struct LocalAcuityParameters {
   /// Everything but sigma and white, which follow from what is below.
   AcuityParameters filter;
@@ -26,7 +27,9 @@ class LocalAcuityFilter : public SpatialFilter {
   /// Throws std::invalid_argument where a parameter is outside its stated domain.
   explicit LocalAcuityFilter(const LocalAcuityParameters& parameters);
   ~LocalAcuityFilter() override;
+  /// What is moved from can only be destroyed.
   LocalAcuityFilter(LocalAcuityFilter&&) noexcept;
+  /// See above.
   LocalAcuityFilter& operator=(LocalAcuityFilter&&) noexcept;
 
   int halo() const noexcept override;

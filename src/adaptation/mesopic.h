@@ -11,6 +11,7 @@ inline constexpr double mes2_efficacy_ratio = 683.0 / 1699.0;
 inline constexpr double mes2_offset = 0.767;
 inline constexpr double mes2_slope = 0.3334;
 
+/// What MES2 makes of a photopic and a scotopic luminance.
 struct MesopicState {
   double adaptation_coefficient;  ///< m: 1 photopic (cones alone), 0 scotopic (rods alone)
   double luminance;               ///< Lmes, cd/m2

@@ -42,9 +42,12 @@ enum class Precision { single, dual };
 /// instructions: no fused multiply-add, so every target gives the same bits.
 class AppearanceBatch {
  public:
+  /// Works out what does not depend on the pixel, in double. Parameters are taken to lie in their domains.
   explicit AppearanceBatch(const AppearanceParameters& parameters, Precision precision = Precision::single);
   ~AppearanceBatch();
+  /// What is moved from can only be destroyed.
   AppearanceBatch(AppearanceBatch&&) noexcept;
+  /// See above.
   AppearanceBatch& operator=(AppearanceBatch&&) noexcept;
 
   /// Applies the operator in place. Where `touched` is given (count bytes), touched[i] says whether pixel i
@@ -56,6 +59,7 @@ class AppearanceBatch {
 
   /// The same for pixels of R, G, B, A next to each other, as float or as half. A keeps its bits.
   void apply_rgba(float* rgba, std::size_t count, std::uint8_t* touched = nullptr) const noexcept;
+  /// The same for pixels as half.
   void apply_rgba(std::uint16_t* half_rgba, std::size_t count, std::uint8_t* touched = nullptr) const noexcept;
 
  private:

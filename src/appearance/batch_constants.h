@@ -20,11 +20,13 @@ namespace scotopic {
 /// Number types of the batch and what each needs for its own last digit.
 template <typename T>
 struct BatchPrecision;
+/// Terms that leave an error under float's last digit.
 template <>
 struct BatchPrecision<float> {
   static constexpr std::size_t mesopic_degree = 7;
   static constexpr std::size_t log_terms = 5;
 };
+/// Terms that leave an error under double's last digit.
 template <>
 struct BatchPrecision<double> {
   static constexpr std::size_t mesopic_degree = 17;
@@ -42,13 +44,16 @@ enum class StageSet {
   kernel      ///< safko2019
 };
 
+/// What the vector loops read, in the number type they work in.
 template <typename T>
 struct BatchConstants {
   static constexpr std::size_t mesopic_terms = BatchPrecision<T>::mesopic_degree + 1;
   static constexpr std::size_t log_terms = BatchPrecision<T>::log_terms;
 
+  /// Rounds each product once.
   explicit BatchConstants(const OperatorConstants& c);
 
+  /// The stages that are on; any, where there is no loop for just these.
   StageSet stages() const noexcept;
 
   // What is on.
@@ -94,6 +99,7 @@ StageSet BatchConstants<T>::stages() const noexcept {
   return StageSet::any;
 }
 
+/// Each component to the nearest of the number type.
 template <typename T>
 Vec3<T> rounded(const Vec3<double>& v) {
   return {static_cast<T>(v[0]), static_cast<T>(v[1]), static_cast<T>(v[2])};
@@ -169,6 +175,7 @@ class WideConstants {
  public:
   static constexpr std::size_t lanes = 64 / sizeof(T);
 
+  /// Spreads each number.
   explicit WideConstants(const OperatorConstants& c)
       : numbers(c), wide_(hwy::AllocateAligned<T>(count * lanes)) {
     for (std::size_t i = 0; i < count; ++i) {

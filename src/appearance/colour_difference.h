@@ -5,6 +5,7 @@
 
 namespace scotopic {
 
+/// CIE 1976 L*, a*, b*.
 struct Lab {
   double lightness = 0;
   double a = 0;

@@ -16,7 +16,9 @@ inline constexpr double luminance_floor = 1.0 / 64;
 /// and compensating changes in appearance between day and night vision", fitted there to contrast matching).
 inline constexpr double chroma_half_luminance = 0.108;
 
+/// What every pixel shares: matrices, whites, effective strengths, worked out once.
 struct OperatorConstants {
+  /// From parameters inside their domains.
   explicit OperatorConstants(const AppearanceParameters& parameters);
 
   AppearanceParameters parameters;

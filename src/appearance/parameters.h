@@ -9,7 +9,9 @@
 
 namespace scotopic {
 
+/// Whether rods take part by the luminance at each pixel, La + Y, or by La alone.
 enum class Weight { local, global };
+/// What luminance a pixel gets: that of MES2, the photopic one it came with, or the kernel's own.
 enum class LuminancePolicy { mesopic, photopic, none };
 
 /// Strength of each effect, 0 (off, costs nothing) to 1 (the model). `all` multiplies every other one.
@@ -20,6 +22,7 @@ struct Strengths {
   double chroma = 1.0;
 };
 
+/// The operator, whole. Outside the stated domains results are undefined; programs check first.
 struct AppearanceParameters {
   Model model = Model::filament2021;
   /// La, the luminance the eye is adapted to, cd/m2; > 0 and finite.

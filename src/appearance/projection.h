@@ -26,6 +26,7 @@ class GamutProjection {
     Matrix3<T> dual;
   };
 
+  /// `lms_from_gamut`: LMS from the gamut's linear RGB; invertible.
   explicit GamutProjection(const Matrix3<double>& lms_from_gamut) {
     for (unsigned set = 0; set < active_sets; ++set) {
       const auto solved = solve(transpose(lms_from_gamut) * lms_from_gamut, set);
@@ -33,6 +34,7 @@ class GamutProjection {
     }
   }
 
+  /// Set `i`: bit k says that component k sits at its bound.
   const ActiveSet& set(std::size_t i) const noexcept { return sets_[i]; }
 
   /// z >= 0 nearest to `z`; returns z itself, bit for bit, when it is already there. Continuous (C0),

@@ -8,6 +8,7 @@
 
 namespace scotopic {
 
+/// One pixel: its colour, and its receptor signals where they are known.
 struct ReferencePixel {
   Vec3<double> rgb{};                   ///< linear, in units of white_luminance
   std::optional<Vec3<double>> cones{};  ///< (L, M, S), luminance units per image unit; absent: from rgb
@@ -20,10 +21,13 @@ struct ReferencePixel {
 /// cancel a negative cone signal under the kernel's root (tests/properties).
 class AppearanceReference {
  public:
+  /// Parameters are taken to lie in their domains.
   explicit AppearanceReference(const AppearanceParameters& parameters);
 
+  /// The pixel as it is seen: linear RGB, in units of white_luminance.
   Vec3<double> operator()(const ReferencePixel& pixel) const noexcept;
 
+  /// All that does not depend on the pixel.
   const OperatorConstants& constants() const noexcept { return c_; }
 
  private:

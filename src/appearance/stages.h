@@ -6,6 +6,7 @@
 
 namespace scotopic {
 
+/// A line of the timetable.
 struct Stage {
   std::string_view name;
   std::string_view in;

@@ -19,7 +19,9 @@ class LevelAxis {
   /// `highest`: log2 of the brightest level; at least the lowest, -80, which stands for black.
   explicit LevelAxis(double highest);
 
+  /// log2 of the level that stands for black.
   double lowest() const noexcept { return lowest_; }
+  /// log2 of the brightest level.
   double highest() const noexcept { return highest_; }
 
   /// Non-decreasing; 0 at or below lowest(), 1 at or above highest().
@@ -39,7 +41,9 @@ class ShareAxis {
  public:
   ShareAxis();
 
+  /// Non-decreasing from 0 at share 0 to 1 at share 1, 1/2 at 1/2.
   double position(double share) const noexcept;
+  /// Inverse of position on [0, 1].
   double share(double position) const noexcept;
 
  private:

@@ -10,6 +10,7 @@
 
 namespace scotopic {
 
+/// A look that holds its own error.
 struct BakedLook {
   LookSpec spec;
   Chain chain;      ///< with all that the file says about itself

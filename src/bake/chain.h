@@ -18,12 +18,15 @@ struct RangeStep {
   double high = std::numeric_limits<double>::infinity();
 };
 
+/// matrix * (R, G, B) + offset.
 struct MatrixStep {
   Matrix3<double> matrix = identity3<double>();
   Vec3<double> offset{};
 };
 
+/// log2 x, or 2^x.
 enum class LogStyle { log2, antilog2 };
+/// Each of R, G, B by itself; for log2 they must be positive.
 struct LogStep {
   LogStyle style = LogStyle::log2;
 };
@@ -42,6 +45,7 @@ struct Lut3DStep {
   int decimals = 6;
 };
 
+/// Any one of them.
 using Step = std::variant<RangeStep, MatrixStep, LogStep, Lut1DStep, Lut3DStep>;
 
 /// What a LUT file says about itself.

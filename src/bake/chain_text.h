@@ -7,6 +7,7 @@
 
 namespace scotopic {
 
+/// Formats that hold a whole chain.
 enum class ChainFormat {
   clf,  ///< Academy/ASC Common LUT Format, S-2014-006, version 3
   ctf,  ///< the same for Autodesk's older readers: Color Transform Format 2.0
@@ -26,6 +27,7 @@ std::string cube_text(const Chain& chain);
 
 /// Sony Pictures Imageworks' .spi3d and .spi1d (inputs 0 to 1), which OpenColorIO 1 reads too.
 std::string spi3d_text(const Lut3DStep& lut);
+/// The 1D kind.
 std::string spi1d_text(const Lut1DStep& lut);
 
 }  // namespace scotopic

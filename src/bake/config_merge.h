@@ -9,6 +9,7 @@
 
 namespace scotopic {
 
+/// A studio's config with looks in it.
 struct MergedConfig {
   std::string text;        ///< the whole new config
   std::string lut_folder;  ///< where the looks' files go: a folder "scotopic" on the config's search path

@@ -13,6 +13,7 @@ struct TimedPicture {
   Colours pixels;
   std::size_t width = 0;
 
+  /// Whole rows.
   std::size_t rows() const { return width > 0 ? pixels.size() / width : 0; }
 };
 

@@ -10,6 +10,7 @@
 
 namespace scotopic {
 
+/// What was found about one look or LUT.
 struct Inspected {
   std::string name;  ///< of the look, or the file
   std::string file;  ///< of the LUT; empty for looks without one

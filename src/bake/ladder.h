@@ -9,6 +9,7 @@
 
 namespace scotopic {
 
+/// A rung.
 struct LadderStep {
   double adaptation;       ///< cd/m2
   std::string_view scene;  ///< where an eye is adapted so

@@ -10,11 +10,13 @@
 
 namespace scotopic {
 
+/// A file not yet written.
 struct TextFile {
   std::string name;  ///< relative to its folder
   std::string text;
 };
 
+/// Everything that a config of looks is made of.
 struct LookSet {
   std::vector<BakedLook> looks;
   std::vector<LookEntry> entries;  ///< of the looks, the context look and the matrix looks

@@ -9,6 +9,7 @@
 
 namespace scotopic {
 
+/// What a LUT is of, and of what size.
 struct LookSpec {
   AppearanceParameters parameters;
   std::string gamut = "working";  ///< as --gamut says it; the matrix is in the parameters

@@ -15,6 +15,7 @@ namespace scotopic {
 /// Planar linear RGB.
 struct Colours {
   std::vector<float> r, g, b;
+  /// Number of colours.
   std::size_t size() const { return r.size(); }
 };
 
@@ -39,10 +40,12 @@ struct BakeError {
 /// Gathers differences batch by batch; 4 bytes for each pixel.
 class Comparison {
  public:
+  /// For linear RGB that this matrix takes to XYZ (D65).
   explicit Comparison(const Matrix3<double>& xyz_from_rgb);
 
   /// Planar linear RGB, all of one size.
   void add(const Colours& in, const Colours& expected, const Colours& got);
+  /// Over all that was added.
   BakeError result() const;
 
  private:
@@ -71,6 +74,7 @@ struct OddPixels {
   std::size_t tested = 0, not_finite = 0, alpha_changed = 0;
   bool black_stays_black = true;
 };
+/// Runs such pixels through a processor.
 OddPixels odd_pixels(const OCIO_NAMESPACE::ConstCPUProcessorRcPtr& processor);
 
 /// "mean 0.031, 99 % 0.17, max 0.45"

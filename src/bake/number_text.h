@@ -7,6 +7,7 @@ namespace scotopic {
 
 /// Shortest decimal that reads back as the same number: "0.18", "1e-05". Finite values only.
 std::string number_text(float value);
+/// The same for double.
 std::string number_text(double value);
 
 /// Rounded to so many decimals, trailing zeros cut: "0.25", "-3", "0". Never "-0".

@@ -8,6 +8,7 @@
 
 namespace scotopic {
 
+/// The config and its files.
 struct Ocio1Twin {
   std::string config;
   std::vector<TextFile> luts;

@@ -7,6 +7,7 @@
 
 namespace scotopic {
 
+/// Step by step, forward.
 OCIO_NAMESPACE::GroupTransformRcPtr ocio_transform(const Chain& chain);
 
 /// Lossless optimisation only; float in and out.

@@ -18,6 +18,7 @@ struct WayDemand {
   std::optional<double> budget;     ///< nanoseconds per pixel on one thread
 };
 
+/// A way, its worst error (CIEDE2000) and its cost per pixel.
 struct MeasuredWay {
   std::string_view name;
   double max_error = 0;
@@ -28,6 +29,7 @@ struct MeasuredWay {
 /// budget, the most accurate. nullopt: none does.
 std::optional<std::size_t> pick_way(std::span<const MeasuredWay> measured, const WayDemand& demand);
 
+/// What was measured, and what came of it.
 struct WayChoice {
   std::vector<MeasuredWay> measured;
   std::optional<std::size_t> picked;

@@ -14,6 +14,7 @@
 
 namespace scotopic {
 
+/// One way.
 struct Way {
   std::string_view name;  ///< as --precision says it
   std::size_t edge;       ///< of the LUT, which OpenColorIO applies; 0: the operator itself
@@ -22,6 +23,7 @@ struct Way {
 inline constexpr std::array<Way, 6> ways = {
     {{"double", 0}, {"float", 0}, {"lut129", 129}, {"lut65", 65}, {"lut33", 33}, {"lut17", 17}}};
 
+/// The way of that name; throws Error(ExitCode::internal) if `ways` has none.
 const Way& way_named(std::string_view name);
 
 /// A way with everything worked out that does not depend on the pixel.
@@ -39,6 +41,7 @@ PreparedWay prepare_way(const AppearanceParameters& parameters, const Way& way);
 struct ErrorStatistics {
   double mean = 0, p99 = 0, max = 0;
 };
+/// Mean, 99th percentile and greatest; zeros for none.
 ErrorStatistics statistics_of(std::vector<double> values);
 
 /// A pixel that came out far off.

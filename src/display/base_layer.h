@@ -7,7 +7,9 @@
 
 namespace scotopic {
 
+/// The light it works in, and the filter.
 struct BaseLayer::Plan {
+  /// Parameters are taken to lie in their domains.
   explicit Plan(const DisplayParameters& parameters);
 
   /// Fills tile.r with the base layer, in decades over La (NaN where the pixel is no number); g and b are

@@ -21,6 +21,7 @@ struct DisplayRange {
   double high = 0;
 };
 
+/// What the last stage is told: the scene, and the display.
 struct DisplayParameters {
   double adaptation = 0.1;              ///< La, cd/m2; > 0
   double white_luminance = 0.1 / 0.18;  ///< cd/m2 of image value 1; > 0
@@ -80,6 +81,7 @@ class BaseLayer : public SpatialFilter {
 /// pixel that is not finite passes unchanged and is seen by no other; black stays black.
 class DisplayFilter : public SpatialFilter {
  public:
+  /// `range`: measured, or given.
   DisplayFilter(const DisplayParameters& parameters, const DisplayRange& range);
   ~DisplayFilter() override;
 

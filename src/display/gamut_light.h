@@ -18,6 +18,7 @@ inline constexpr float brightest_decade = 14.0f;
 /// Immutable: share it between threads.
 class GamutLight {
  public:
+  /// Works out its matrices once.
   explicit GamutLight(const DisplayParameters& p)
       : gamut_from_rgb_((inverse(p.xyz_from_gamut) * p.xyz_from_rgb).to<float>()),
         rgb_from_gamut_((inverse(p.xyz_from_rgb) * p.xyz_from_gamut).to<float>()),
@@ -37,9 +38,11 @@ class GamutLight {
   Vec3<float> inside(const Vec3<float>& rgb) const noexcept {
     return projection_.nearest(same_ ? rgb : gamut_from_rgb_ * rgb);
   }
+  /// Linear working RGB from the gamut's.
   Vec3<float> working(const Vec3<float>& gamut_rgb) const noexcept {
     return same_ ? gamut_rgb : rgb_from_gamut_ * gamut_rgb;
   }
+  /// Y, image units.
   float luminance(const Vec3<float>& gamut_rgb) const noexcept { return dot(luminance_, gamut_rgb); }
 
   /// log10 of luminance over La, within the two decades above.

@@ -27,6 +27,7 @@ std::int64_t acuity_bytes(const SpatialFilter& filter, const Picture& picture);
 /// the halo: memory does not grow with the height.
 class AcuityRows {
  public:
+  /// `filter` must outlive it; `data` is the picture's window; `alpha`: keep it beside the light.
   AcuityRows(const SpatialFilter& filter, const Window& data, bool descending, bool alpha);
 
   /// Makes room for the next band, and says where it lies until next() takes it.

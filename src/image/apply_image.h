@@ -27,6 +27,7 @@
 
 namespace scotopic {
 
+/// What the user says about a file's colour and its output; what is not said is found in the file.
 struct ImageRequest {
   std::string layer;                       ///< --layer: a channel prefix or the name of a part
   std::optional<std::string> colourspace;  ///< of the input
@@ -55,6 +56,7 @@ struct ImageLayout {
   double exposure = 0;
   std::vector<std::string> notes;
 
+  /// The light of that picture of the source; nullptr: it holds none.
   const LightPicture* light_of(std::size_t source_index) const;
 };
 

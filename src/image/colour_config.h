@@ -40,12 +40,16 @@ struct ColourSpace {
 class RowConverter {
  public:
   RowConverter() = default;  ///< the identity
+  /// RGB times a matrix, in double, rounded once.
   explicit RowConverter(const Matrix3<double>& matrix);
+  /// Whatever a processor of OCIO does.
   explicit RowConverter(OCIO_NAMESPACE::ConstCPUProcessorRcPtr processor);
   /// Device values of linear light.
   RowConverter(std::shared_ptr<const IccProfile> profile, const Matrix3<double>& xyz_from_rgb);
 
+  /// Whether apply() changes nothing.
   bool identity() const noexcept { return !matrix_ && !processor_; }
+  /// `count` pixels in place; any thread.
   void apply(float* r, float* g, float* b, std::size_t count) const;
 
  private:
@@ -63,6 +67,7 @@ class ColourConfig {
   static ColourConfig own();
   static ColourConfig from_file(const std::string& file, const Limits& limits = {});
 
+  /// As OCIO has it.
   const OCIO_NAMESPACE::ConstConfigRcPtr& ocio() const noexcept { return config_; }
   /// The config's file; empty for the project's own.
   const std::string& file() const noexcept { return file_; }
@@ -78,12 +83,14 @@ class ColourConfig {
 
   /// The canonical name of a space, role or alias; for an unknown one, an error that lists close names.
   std::string resolve(const std::string& name) const;
+  /// The space by name, role or alias; else an error as of resolve().
   ColourSpace space(const std::string& name) const { return {resolve(name)}; }
   /// What a display is sent under a view: VIEW of the config's default display, or DISPLAY/VIEW. For a name that does not
   /// exist, an error that lists close ones.
   ColourSpace view(const std::string& name) const;
   /// The looks that a view applies by itself; empty where it has none.
   std::string looks_of(const DisplayView& view) const;
+  /// Whether there is a space, role or alias of that name.
   bool has_space(const std::string& name) const;
   /// What the config's rules say of a file. `integer` pixels that only the default rule matches are taken to
   /// be display-encoded: role default_byte, where there is one.
@@ -98,7 +105,9 @@ class ColourConfig {
   /// CIE XYZ (D65-adapted) from the space's RGB; nullopt if it is not linear light.
   std::optional<Matrix3<double>> linear_xyz(const ColourSpace& space) const;
 
+  /// From a space's values to linear working RGB.
   RowConverter to_working(const ColourSpace& from) const;
+  /// And back.
   RowConverter from_working(const ColourSpace& to) const;
 
  private:

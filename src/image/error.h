@@ -23,10 +23,13 @@ enum class ExitCode : int {
 /// `file` may be empty where no file is at fault; `what()` is one sentence without full stop.
 class Error : public std::runtime_error {
  public:
+  /// Whose fault, which file, what.
   Error(ExitCode code, std::string file, const std::string& what)
       : std::runtime_error(what), code_(code), file_(std::move(file)) {}
 
+  /// What the program should end with.
   ExitCode code() const noexcept { return code_; }
+  /// The file at fault, or empty.
   const std::string& file() const noexcept { return file_; }
 
  private:

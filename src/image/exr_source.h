@@ -13,15 +13,20 @@
 
 namespace scotopic {
 
+/// A picture for each part and resolution; scanlines or tiles.
 class ExrSource : public PixelSource {
  public:
+  /// Reads the headers. Throws Error(input) or Error(limit).
   ExrSource(const std::string& file, const Limits& limits);
 
   void read(std::size_t index, int y0, int rows, Band& band) override;
   std::vector<Attribute> attributes(std::size_t index) const override;
 
+  /// The open file, for what a sink copies from it.
   Imf::MultiPartInputFile& exr() { return *exr_; }
+  /// Header of a part.
   const Imf::Header& header(int part) const { return exr_->header(part); }
+  /// Number of parts.
   int parts() const { return exr_->parts(); }
 
  private:
@@ -41,6 +46,7 @@ int rows_compressed_together(Imf::Compression compression);
 
 /// The file's channel type; uint is uint32.
 PixelType pixel_type(Imf::PixelType type);
+/// And back; no integer type but uint32.
 Imf::PixelType exr_type(PixelType type);
 
 /// The window of one resolution of a part.

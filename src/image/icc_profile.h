@@ -25,6 +25,7 @@ class IccProfile {
   IccProfile(const IccProfile&) = delete;
   IccProfile& operator=(const IccProfile&) = delete;
 
+  /// As it was named.
   const std::string& file() const noexcept { return file_; }
   /// The profile itself, to be embedded.
   const std::vector<std::byte>& bytes() const noexcept { return bytes_; }

@@ -14,6 +14,7 @@ namespace scotopic {
 
 /// One row as the operator takes it: linear working RGB, and receptor signals where the file has them.
 struct LightRow {
+  /// Room for `width` pixels.
   explicit LightRow(std::size_t width)
       : r(width),
         g(width),
@@ -39,6 +40,7 @@ class LightReader {
   /// XYZ: signals in luminance units, 1 of them standing for the image's unit.
   LightReader(const ColourChannels& channels, const ColourConfig& config, const ColourSpace& space);
 
+  /// Row `row` of a band; any thread.
   void read(const Band& band, int row, LightRow& out) const;
   /// Whether rows carry the cones' and rods' own signals.
   bool receptors() const noexcept;

@@ -17,6 +17,7 @@ enum class NonFinite { keep, clean, error };
 /// Counts them as rows pass, from any number of threads, and cleans them if asked to.
 class NonFiniteWatch {
  public:
+  /// What to do with such pixels.
   explicit NonFiniteWatch(NonFinite policy) : policy_(policy), count_(std::make_shared<std::atomic<std::uint64_t>>(0)) {}
 
   /// `apply`, watched; stays valid after the watch is gone. Empty, where there is nothing to apply and nothing to clean:

@@ -5,6 +5,7 @@
 
 namespace scotopic {
 
+/// TIFF or PNG; see open_sink().
 std::unique_ptr<PixelSink> open_oiio_sink(const std::string& format, OutputFile& file, PixelSource& source,
                                           const std::vector<OutputPicture>& pictures);
 

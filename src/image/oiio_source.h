@@ -7,13 +7,16 @@
 
 namespace scotopic {
 
+/// One picture for each page (TIFF), else one.
 class OiioSource : public PixelSource {
  public:
+  /// Reads the header. Throws Error(input) or Error(limit).
   OiioSource(const std::string& file, const std::string& format, const Limits& limits);
 
   void read(std::size_t index, int y0, int rows, Band& band) override;
   std::vector<Attribute> attributes(std::size_t index) const override;
 
+  /// What OpenImageIO says of a picture.
   const OIIO::ImageSpec& spec(std::size_t index) const { return specs_[index]; }
 
  private:
@@ -23,6 +26,7 @@ class OiioSource : public PixelSource {
   std::vector<OIIO::ImageSpec> specs_;  // one for each picture
 };
 
+/// A file whose format is known already: tiff, png, jpeg, hdr.
 std::unique_ptr<PixelSource> open_oiio_source(const std::string& file, const std::string& format,
                                               const Limits& limits);
 

@@ -21,11 +21,13 @@ namespace scotopic {
 /// the next OutputFile of that target removes it (it is locked while its program lives).
 class OutputFile {
  public:
+  /// `path`: the target.
   explicit OutputFile(const std::string& path);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
+  /// The target, as it was named.
   const std::string& path() const noexcept { return path_; }
 
   /// A name under which a library that takes only names can open and write the file, instead of write(), or
@@ -36,8 +38,11 @@ class OutputFile {
   bool write(const void* data, std::size_t size) noexcept;
   /// Bytes read back from what was written, at the current position; fewer at the end.
   std::size_t read(void* data, std::size_t size) noexcept;
+  /// Where the next write() or read() begins, bytes from the start; may lie beyond the end.
   void seek(std::int64_t position) noexcept { position_ = position; }
+  /// That position.
   std::int64_t tell() const noexcept { return position_; }
+  /// Bytes from the start to the last one written.
   std::int64_t size() const noexcept { return size_; }
 
   /// Throws if any write failed.

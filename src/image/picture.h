@@ -21,11 +21,15 @@ struct Window {
   int x1 = 0;
   int y1 = 0;
 
+  /// Columns.
   int width() const { return x1 - x0; }
+  /// Rows.
   int height() const { return y1 - y0; }
+  /// The same pixels.
   bool operator==(const Window&) const = default;
 };
 
+/// A channel of a file.
 struct Channel {
   std::string name;
   PixelType type = PixelType::half;
@@ -34,20 +38,24 @@ struct Channel {
 /// Which channels hold the light. rgb: index R, G, B. lmsr: index L, M, S, rod. grey: index[0] is luminance.
 /// computed: the source makes receptor signals and XYZ of channels that are not listed (spectra).
 struct ColourChannels {
+  /// What they are; see above.
   enum class Kind { none, rgb, lmsr, grey, computed };
   Kind kind = Kind::none;
   std::array<std::size_t, 4> index{};
   std::optional<std::size_t> alpha;
   std::string layer;  ///< prefix of the channels' names; empty for the topmost
 
+  /// How many of `index` count.
   std::size_t count() const {
     return kind == Kind::lmsr ? 4 : kind == Kind::rgb ? 3 : kind == Kind::grey ? 1 : 0;
   }
+  /// Whether a channel of the file is one of them; alpha is none.
   bool is_colour(std::size_t channel) const;
 };
 
 /// Metadata that every format can hold in one way or another.
 using AttributeValue = std::variant<std::string, double, int>;
+/// A piece of metadata: its name, and a text or a number.
 struct Attribute {
   std::string name;
   AttributeValue value;
@@ -87,6 +95,7 @@ struct ChannelRows {
   std::ptrdiff_t row_stride = 0;
   PixelType type = PixelType::half;
 
+  /// Row `r` of the band.
   NativeRow row(int r) const { return {data + r * row_stride, stride, type}; }
 };
 

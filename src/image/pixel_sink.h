@@ -53,6 +53,7 @@ const std::vector<PixelType>& pixel_types_of(const std::string& format);
 std::unique_ptr<PixelSink> open_sink(const std::string& format, OutputFile& file, PixelSource& source,
                                      const std::vector<OutputPicture>& pictures);
 
+/// OpenEXR; see open_sink().
 std::unique_ptr<PixelSink> open_exr_sink(OutputFile& file, PixelSource& source,
                                          const std::vector<OutputPicture>& pictures);
 

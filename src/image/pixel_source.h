@@ -18,9 +18,11 @@ class PixelSource {
  public:
   virtual ~PixelSource() = default;
 
+  /// As it was named.
   const std::string& file() const noexcept { return file_; }
   /// openexr, tiff, png, hdr, jpeg.
   const std::string& format() const noexcept { return format_; }
+  /// All of them, in the file's order; known once it is open.
   const std::vector<Picture>& pictures() const noexcept { return pictures_; }
 
   /// Rows y0 <= y < y0 + rows of picture `index` (rows in steps of chunk_rows from data.y0, or to the end).
@@ -35,7 +37,9 @@ class PixelSource {
   void require_unchanged() const;
 
  protected:
+  /// Sources set pictures_ themselves.
   PixelSource(std::string file, std::string format) : file_(std::move(file)), format_(std::move(format)) {}
+  /// Throws Error(input) about this file.
   [[noreturn]] void fail(const std::string& what) const;
   /// Throws for the first limit that a picture exceeds.
   void check_limits(const Limits& limits) const;
@@ -54,6 +58,7 @@ class PixelSource {
 /// else is refused. The pixels are not looked at.
 std::unique_ptr<PixelSource> open_source(const std::string& file, const Limits& limits);
 
+/// OpenEXR; see open_source().
 std::unique_ptr<PixelSource> open_exr_source(const std::string& file, const Limits& limits);
 
 }  // namespace scotopic

@@ -7,11 +7,14 @@
 
 namespace scotopic {
 
+/// Types of a channel; half is IEEE 754 binary16.
 enum class PixelType { uint8, uint16, uint32, half, float32 };
 
+/// Bytes of one value.
 std::size_t size_of(PixelType type);
 /// uint8, uint16, uint, half, float.
 std::string_view name_of(PixelType type);
+/// Whether values are fractions of the type's largest.
 inline bool is_integer(PixelType type) { return type < PixelType::half; }
 
 /// One channel of one row: `stride` bytes from pixel to pixel.

@@ -16,6 +16,7 @@ struct Xy {
   double y = 0;
 };
 
+/// Of an RGB space: its primaries and its white.
 struct Primaries {
   Xy red, green, blue, white;
 };
@@ -48,6 +49,7 @@ std::optional<Matrix3<double>> gamut_xyz_matrix(std::string_view name);
 
 /// Chromaticities by which OpenEXR says that R, G, B are CIE X, Y, Z themselves: (1,0), (0,1), (0,0), white (1/3,1/3).
 const Primaries& cie_xyz_primaries();
+/// Whether they are those, each to 1e-3.
 bool are_cie_xyz(const Primaries& primaries);
 /// Whether a space's RGB is CIE XYZ (D65): its matrix is the identity, to 5e-4.
 bool is_cie_xyz(const Matrix3<double>& xyz_from_rgb);

@@ -17,17 +17,20 @@ struct ChannelName {
   std::optional<double> wavelength_m;
 };
 
+/// What the bands hold.
 enum class SpectralKind {
   emissive,    ///< spectral radiance
   reflective,  ///< reflectance: light comes from an illuminant
   receptors    ///< four channels, already weighed with l, m, s and V'
 };
 
+/// One band, by its centre.
 struct SpectralBand {
   std::size_t channel;  ///< index into the channels that were searched
   double nm;
 };
 
+/// All bands of an image.
 struct SpectralLayout {
   SpectralKind kind = SpectralKind::emissive;
   /// Bands by ascending wavelength; receptors: L, M, S, R, with nm 0.

@@ -45,6 +45,7 @@ struct SpectralReport {
 /// per cd/m2 of a perfect white for reflectance.
 class SpectralSource : public PixelSource {
  public:
+  /// What was found, assumed and lost.
   const SpectralReport& report() const noexcept { return report_; }
 
  protected:
@@ -66,6 +67,7 @@ struct WavelengthFile {
   std::string file;
   double nm;
 };
+/// Throws Error(ExitCode::input) for none.
 std::vector<WavelengthFile> files_of_pattern(const std::string& pattern);
 
 }  // namespace scotopic

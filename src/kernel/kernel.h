@@ -17,6 +17,7 @@ namespace scotopic {
 template <typename T>
 class Kernel {
  public:
+  /// `scale` is T, > 0 and finite.
   Kernel(const KernelPreset& preset, double scale) noexcept
       : kappa_{to_t(preset.kappa)},
         gain_{to_t({preset.gain[0] * scale, preset.gain[1] * scale, preset.gain[2] * scale})},
@@ -40,7 +41,9 @@ class Kernel {
     return cone_shift_ * Vec3<T>{g[0] * rod, g[1] * rod, g[2] * rod};
   }
 
+  /// As in the preset.
   const Vec3<T>& kappa() const noexcept { return kappa_; }
+  /// Gain times T: per luminance unit.
   const Vec3<T>& gain() const noexcept { return gain_; }
   /// Δq = cone_shift() (g r).
   const Matrix3<T>& cone_shift() const noexcept { return cone_shift_; }

@@ -5,6 +5,7 @@
 
 namespace scotopic {
 
+/// Publications whose constants are here.
 enum class Model {
   filament2021,  ///< Cao-consistent constants as in Filament's ColorGrading: mild, in gamut; the default
   kirk2011,      ///< Kirk & O'Brien, "Perceptually Based Tone Mapping for Low-Light Conditions" (2011)
@@ -55,6 +56,7 @@ constexpr KernelPreset make_filament2021() {
 /// filament2021: kernel units per cd/m2; 380 x 52.3313, the spot-meter anchor of its author.
 inline constexpr double filament2021_scale = 19885.9;
 
+/// Constants of a model. safko2019 has those of kirk2011: what differs is the scale, and all around the kernel.
 constexpr KernelPreset kernel_preset(Model model) {
   return model == Model::filament2021 ? detail::make_filament2021() : detail::make_kirk2011();
 }

@@ -17,6 +17,7 @@ struct NamedIlluminant {
   std::string_view description;
 };
 
+/// All of them, in the order of help texts.
 std::span<const NamedIlluminant> named_illuminants();
 
 /// "d65, e, moon, ...": for help and error texts.

@@ -13,6 +13,7 @@ inline constexpr double sp_ratio_d65 = 2.4648;
 /// S/P of monochromatic light of 650 nm, about the lowest that a surface or lamp reaches.
 inline constexpr double sp_ratio_floor = 0.016;
 
+/// Which fit: linear in XYZ, or with quadratic terms in chromaticity.
 enum class RodEstimate { linear, quadratic };
 
 /// Scotopic luminance from D65-adapted XYZ under D65. White-exact least squares over the reflectances of

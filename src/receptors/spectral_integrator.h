@@ -24,6 +24,7 @@ using SignalRows = std::array<float*, signal_count>;
 /// weighed_bands).
 class SpectralIntegrator {
  public:
+  /// Rounds the weights for its sums.
   SpectralIntegrator(const SpectralWeights& weights, Accumulation accumulation);
 
   /// Band b of pixel i is bands[b * stride + i].
@@ -33,6 +34,7 @@ class SpectralIntegrator {
   void integrate_half(const std::uint16_t* bands, std::size_t stride, std::size_t count,
                       const SignalRows& out) const noexcept;
 
+  /// The weights as its loops read them.
   struct Weights {
     std::size_t bands = 0;
     /// [band][signal]; dual: rounded to 29 bits, so that a product with a float is exact in double, and a

@@ -15,11 +15,13 @@ enum class Signal : std::size_t { l, m, s, rod, x, y, z };
 inline constexpr std::size_t signal_count = 7;
 inline constexpr std::array<Signal, signal_count> all_signals = {Signal::l, Signal::m, Signal::s, Signal::rod,
                                                                  Signal::x, Signal::y, Signal::z};
+/// Place of a signal in arrays.
 constexpr std::size_t index(Signal signal) { return static_cast<std::size_t>(signal); }
 
 /// The curve that a signal weighs light with, and the factor that makes its integral over W/(m2 sr) the
 /// signal.
 const TabulatedCurve& sensitivity(Signal signal);
+/// That factor: luminance units, or cd/m2, per W/(m2 sr).
 double signal_per_watt(Signal signal);
 
 /// bin: a band's value is the mean over its bin. point: it is the value at the band's centre.
@@ -34,10 +36,15 @@ class BandGrid {
   /// Centres in nm, ascending, positive and finite; at least two (one band alone has no width).
   explicit BandGrid(std::vector<double> centres_nm);
 
+  /// Number of bands.
   std::size_t size() const { return centres_.size(); }
+  /// nm.
   double centre(std::size_t band) const { return centres_[band]; }
+  /// nm.
   double lower_edge(std::size_t band) const { return edges_[band]; }
+  /// nm.
   double upper_edge(std::size_t band) const { return edges_[band + 1]; }
+  /// nm.
   double width(std::size_t band) const { return edges_[band + 1] - edges_[band]; }
 
  private:
@@ -45,6 +52,7 @@ class BandGrid {
   std::vector<double> edges_;
 };
 
+/// What each band gives to each signal.
 struct SpectralWeights {
   /// [signal][band]: a signal is the sum over the bands of weight times value.
   std::array<std::vector<double>, signal_count> of;

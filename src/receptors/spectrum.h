@@ -28,6 +28,7 @@ struct TabulatedCurve {
   double step_nm = 1.0;
   std::span<const double> values;
 
+  /// Wavelength of the last value.
   constexpr double last_nm() const { return first_nm + step_nm * static_cast<double>(values.size() - 1); }
 
   /// Linear between samples, 0 outside [first_nm, last_nm].
@@ -48,6 +49,7 @@ struct Spectrum {
   double step_nm = 1.0;
   std::vector<double> values;
 
+  /// A view of it, valid as long as this lives.
   TabulatedCurve curve() const { return {first_nm, step_nm, values}; }
 };
 
@@ -61,6 +63,7 @@ double integrate(const TabulatedCurve& spectrum, const TabulatedCurve& sensitivi
 
 /// Luminance of a spectral radiance in W/(m2 sr nm); of any other spectral quantity, the like.
 PhotopicLuminance photopic_luminance(const TabulatedCurve& radiance);
+/// The same with V'.
 ScotopicLuminance scotopic_luminance(const TabulatedCurve& radiance);
 
 /// Scotopic over photopic luminance; the spectrum's scale does not matter. NaN for a spectrum that is all

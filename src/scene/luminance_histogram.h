@@ -33,6 +33,7 @@ class LuminanceHistogram {
     bin.above_first += bits & ((1u << bin_shift) - 1);
   }
 
+  /// All that another one holds.
   void add(const LuminanceHistogram& other) noexcept {
     dark_ += other.dark_;
     for (std::size_t i = 0; i < bins; ++i) {
@@ -41,7 +42,9 @@ class LuminanceHistogram {
     }
   }
 
+  /// Values added, dark ones too.
   std::uint64_t count() const noexcept;
+  /// Those that were not positive.
   std::uint64_t dark() const noexcept { return dark_; }
 
   /// Sum of the positive values; exact but for the rounding of one double sum over bins.

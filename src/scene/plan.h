@@ -16,12 +16,14 @@ namespace scotopic {
 /// sometimes proposed, skipping can be seen (.65 dE00 for a bluish grey; tests/scene).
 inline constexpr double sp_tolerance = 0.002;
 
+/// What was asked for.
 struct PlanRequest {
   AppearanceParameters parameters;  ///< La and unit resolved; strengths as asked, 0 = switched off by the user
   bool acuity = false;              ///< asked for
   std::optional<double> pixels_per_degree;
 };
 
+/// Whether one effect runs, and why.
 struct EffectDecision {
   std::string_view effect;  ///< shift, luminance, chroma, acuity; glare, noise, time
   bool simulated = true;    ///< this program can do it
@@ -34,14 +36,17 @@ struct EffectDecision {
   double share = 0;         ///< of pixels that it would touch, 0 to 1
   double difference = 0;    ///< largest dE00, exposed to mid-grey, it makes over the samples
 
+  /// It can be done, was asked for, and the scene calls for it.
   bool runs() const noexcept { return simulated && asked && needed; }
 };
 
+/// The decisions, and what to compute.
 struct ScenePlan {
   std::vector<EffectDecision> effects;
   AppearanceParameters parameters;  ///< of the run: effects that are not needed are off
   bool acuity = false;              ///< the acuity filter runs
 
+  /// The decision about an effect; throws std::out_of_range for a name that is none.
   const EffectDecision& effect(std::string_view name) const;
   /// Nothing to compute: the picture is returned as it came.
   bool nothing() const noexcept;

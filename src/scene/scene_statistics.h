@@ -25,8 +25,11 @@ struct SceneStatistics {
   /// RGB triples from all over the picture, for measuring what an effect would do.
   std::vector<float> samples;
 
+  /// Pixels that count.
   std::uint64_t finite() const noexcept { return photopic.count(); }
+  /// Arithmetic mean of Y, image units.
   double mean_photopic() const noexcept;
+  /// The same of scotopic luminance.
   double mean_scotopic() const noexcept;
   /// S/P ratio of the whole picture's light; white's where there is no light.
   double sp_ratio() const noexcept;
