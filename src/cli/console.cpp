@@ -10,6 +10,7 @@
 #include <mutex>
 #include <new>
 #include <string_view>
+#include <system_error>
 
 #include "image/output_file.h"
 
@@ -164,6 +165,11 @@ Error error_of(const std::exception_ptr& failure) {
     return error;
   } catch (const std::bad_alloc&) {
     return Error(ExitCode::limit, "", "out of memory");
+  } catch (const std::system_error& error) {
+    // What a thread needs and does not get.
+    if (error.code() == std::errc::resource_unavailable_try_again || error.code() == std::errc::not_enough_memory)
+      return Error(ExitCode::limit, "", "out of memory or threads");
+    return Error(ExitCode::internal, "", std::string("internal error: ") + error.what());
   } catch (const std::exception& error) {
     return Error(ExitCode::internal, "", std::string("internal error: ") + error.what());
   }

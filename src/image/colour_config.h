@@ -64,7 +64,9 @@ class ColourConfig {
   /// `file` if not empty, else the file $OCIO names, else the project's own config.
   /// Configs and LUTs larger than `limits` are Error(limit).
   static ColourConfig in_force(const std::string& file, const Limits& limits = {});
+  /// The project's own config.
   static ColourConfig own();
+  /// Read from a file.
   static ColourConfig from_file(const std::string& file, const Limits& limits = {});
 
   /// As OCIO has it.

@@ -19,6 +19,7 @@ std::string read_input_file(const std::string& file, ExitCode code, std::int64_t
 /// What a file was when reading it began.
 class FileState {
  public:
+  /// As it is now.
   explicit FileState(const std::string& file);
   /// Throws Error(input) if the same file has another size or time now: what was read may be of two states. A
   /// file put in its place under the same name is no change of the one that is being read.

@@ -78,8 +78,8 @@ OiioSource::OiioSource(const std::string& file, const std::string& format, const
   OIIO::ImageSpec spec;
   const StderrHeld held;
   watch(file);
-  // Its own limit of 1024 would not name our option.
-  OIIO::attribute("limits:channels", static_cast<int>(std::min<std::int64_t>(limits.channels, INT32_MAX)));
+  // Its own limit does not name our option: as many as a TIFF can say, and check_limits decides.
+  OIIO::attribute("limits:channels", 65535);
   if (!input_->open(file, spec, hints)) fail("is not a valid " + format + " file: " + input_->geterror());
   for (int page = 0; input_->seek_subimage(page, 0); ++page) {
     add_picture(page, input_->spec());

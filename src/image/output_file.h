@@ -52,6 +52,7 @@ class OutputFile {
   void complete();
   /// Puts the completed file in its place, in one step; throws, and leaves the target as it was, if it cannot.
   void publish();
+  /// Both.
   void commit() {
     complete();
     publish();

@@ -26,7 +26,9 @@ class OutputSet {
   OutputFile& open(const std::string& path);
   /// Writes and syncs a file of this text, reads it back and compares. Its open_name() can be read then.
   static void write(OutputFile& file, const std::string& text);
+  /// open() and write() of this text.
   OutputFile& add(const std::string& path, const std::string& text);
+  /// Puts every file in its place; see above.
   void commit();
 
  private:

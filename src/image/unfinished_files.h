@@ -23,6 +23,7 @@ class SignalsHeld {
 /// registered, or the name is too long for the system, the rest is not.
 class UnfinishedName {
  public:
+  /// From now on.
   explicit UnfinishedName(const std::string& name) noexcept;
   ~UnfinishedName();
   UnfinishedName(const UnfinishedName&) = delete;

@@ -101,7 +101,8 @@ TEST_F(Bake, a_look_that_calls_for_nothing_is_a_no_op_and_one_of_chroma_alone_a_
               {{"--adaptation", "0.01", "--effects", "chroma"}, true, false},
               {{"--adaptation", "0.01", "--effects", "shift", "--weight", "global"}, true, false}};
   for (const auto& row : rows) {
-    const std::string file = folder_.path("plan.clf");
+    // A name of its own: OpenColorIO keeps files by their names.
+    const std::string file = folder_.path("plan" + std::to_string(&row - rows) + ".clf");
     std::vector<std::string> arguments = {"bake", "--size", "17", "-o", file};
     arguments.insert(arguments.end(), row.options.begin(), row.options.end());
     const Outcome baked = run_program(arguments);

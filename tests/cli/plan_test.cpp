@@ -81,6 +81,22 @@ TEST_F(Plan, effects_that_are_not_listed_do_not_run) {
   EXPECT_NE(pixels("chroma.exr"), pixels("in.exr"));
 }
 
+TEST_F(Plan, acuity_takes_its_word_with_or_without_an_equals_sign_or_none_before_a_file_name) {
+  const std::vector<std::string> rest = {"-o", path("out.exr"), "--adaptation", "0.01", "--ppd", "60"};
+  const auto seen = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "apply");
+    arguments.insert(arguments.end(), rest.begin(), rest.end());
+    const test::Outcome outcome = test::run_program(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_NE(seen({path("in.exr"), "--acuity", "local"}).find("sigma up to"), std::string::npos);
+  EXPECT_NE(seen({path("in.exr"), "--acuity=local"}).find("sigma up to"), std::string::npos);
+  const std::string global = seen({"--acuity", path("in.exr")});
+  EXPECT_NE(global.find("acuity: "), std::string::npos) << global;
+  EXPECT_EQ(global.find("sigma up to"), std::string::npos) << global;
+}
+
 TEST_F(Plan, acuity_runs_only_where_the_picture_holds_more_than_the_eye_resolves) {
   // At .01 cd/m2 the eye resolves 5.31 cycles a degree.
   apply("plain.exr", {"--adaptation", "0.01", "-q"});

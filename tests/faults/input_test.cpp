@@ -35,10 +35,12 @@ TEST(Reading, parts_and_interruptions_change_nothing) {
   Seen seen;
   for (const char* name : {"apply exr", "apply tiff pages", "lmsr"}) {
     const Subject subject = subject_of(verb(name));
-    sweep(subject, {"", "read", "short", true, {0}}, 1, seen);
-    sweep(subject, {"", "read", std::to_string(EINTR), false, {0}}, long_form() ? 1000 : 10, seen);
+    // libtiff takes part of a read for the end of the file, and an interruption for a broken disk: refused, not read wrongly.
+    const std::vector<int> codes = subject.verb->name == "apply tiff pages" ? std::vector<int>{0, 3} : std::vector<int>{0};
+    sweep(subject, {"", "read", "short", true, codes}, 1, seen);
+    sweep(subject, {"", "read", std::to_string(EINTR), false, codes}, long_form() ? 1000 : 10, seen);
   }
-  tally("reads of half, and EINTR at the k-th read", seen.tries, "exit 0, the same bytes", text_of(seen));
+  tally("reads of half, and EINTR at the k-th read", seen.tries, "exit 0, the same bytes (TIFF: or 3)", text_of(seen));
 }
 
 /// The input is changed at the k-th read of it.
@@ -82,7 +84,8 @@ void changed(const std::string& how, const std::vector<int>& codes, const std::s
 
 TEST(Reading, a_file_changed_meanwhile_is_no_picture) {
   changed("truncate", {3}, "exit 3, nothing written");
-  changed("append", {3}, "exit 3, nothing written");
+  // Before the first look at it, that is the file.
+  changed("append", {0, 3}, "exit 3, nothing written; 0 where it was before the first look");
   changed("rewrite", {3}, "exit 3, nothing written");
   changed("replace", {0, 3}, "exit 0 from one file, or 3");
 }

@@ -9,7 +9,7 @@
 namespace scotopic {
 namespace {
 
-TEST(Frames, lists_mean_what_people_write) {
+TEST(FrameList, lists_mean_what_people_write) {
   using List = std::vector<int>;
   EXPECT_EQ(parse_frames("7"), List({7}));
   EXPECT_EQ(parse_frames("1-4"), List({1, 2, 3, 4}));
@@ -23,7 +23,7 @@ TEST(Frames, lists_mean_what_people_write) {
   EXPECT_EQ(parse_frames("999999999"), List({999999999}));
 }
 
-TEST(Frames, anything_else_is_a_usage_error_that_quotes_it) {
+TEST(FrameList, anything_else_is_a_usage_error_that_quotes_it) {
   for (const char* text : {"", " ", "a", "1-", "-", "1-2-3", "1,,2", ",1", "1,", "1-10x", "1-10x0", "1-10x-2", "5-1", "1.5", "1e3",
                            "1-3 ", " 1", "0x10", "1-9999999", "9999999999", "99999999999999999999", "1-10y2", "1x2", "%d", "1;2", "+1"}) {
     try {
@@ -36,7 +36,7 @@ TEST(Frames, anything_else_is_a_usage_error_that_quotes_it) {
   }
 }
 
-TEST(Frames, a_text_of_frames_reads_back) {
+TEST(FrameList, a_text_of_frames_reads_back) {
   std::mt19937 random(1);
   for (int round = 0; round < 200; ++round) {
     std::vector<int> frames;

@@ -56,7 +56,7 @@ std::vector<std::string> verbs() {
 /// Words that bash would offer after "scotopic WORDS...", the last of which is being typed.
 std::set<std::string> offered(const std::string& words) {
   const std::string script = "source " SCOTOPIC_PAGES "/scotopic.bash; compopt() { :; }; COMP_WORDS=(scotopic " + words +
-                             "); COMP_CWORD=$((${#COMP_WORDS[@]}-1)); _scotopic; printf '%s\\n' \"${COMPREPLY[@]}\"";
+                             "); COMP_CWORD=$((${#COMP_WORDS[@]}-1)); _scotopic; printf \"%s\\n\" \"${COMPREPLY[@]}\"";
   std::istringstream lines(shell("bash --norc -c '" + script + "'"));
   std::set<std::string> out;
   for (std::string line; std::getline(lines, line);)

@@ -98,7 +98,7 @@ Image applied(const Image& image, double sigma = 0, NonFinite policy = NonFinite
     const NonFiniteWatch watch(policy);
     apply_image(*source, layout, config,
                 watch.watched([&](const PixelRows& rows, std::uint8_t* touched) { batch.apply(rows, touched); }), file,
-                nullptr, sigma > 0 ? &filter : nullptr);
+                nullptr, sigma > 0 ? SpatialFilters{&filter} : SpatialFilters{});
     if (found) {
       *found = find_non_finite(*source, layout, config);
       EXPECT_EQ(watch.count(), found->count);
