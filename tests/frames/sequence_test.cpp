@@ -74,7 +74,10 @@ TEST_F(Frames, a_failure_stops_the_sequence_and_what_is_written_is_whole) {
   const Outcome outcome = apply({"--frames", "1-6", "--adaptation", "0.1", "--frames-at-once", "1"});
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_NE(outcome.err.find("in.0003.exr: is "), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("2 of 6 frames written, 1 failed (3), "), std::string::npos) << outcome.err;
+  // The next one may be under way by then: it is finished.
+  const bool two = outcome.err.find("2 of 6 frames written, 1 failed (3), 3 not begun") != std::string::npos;
+  const bool three = outcome.err.find("3 of 6 frames written, 1 failed (3), 2 not begun") != std::string::npos;
+  EXPECT_TRUE(two || three) << outcome.err;
   EXPECT_TRUE(exists("seen.0002.exr"));
   EXPECT_FALSE(exists("seen.0003.exr"));
   EXPECT_EQ(files(".scotopic"), 0u);
@@ -104,7 +107,7 @@ TEST_F(Frames, wrong_patterns_and_lists_are_usage_errors_and_nothing_is_written)
       {{"{}/in.0001.exr", "-o", "{}/seen.####.exr", "--frames", "1-3"}, "the input has no place for the frame's number"},
       {{"{}/in.####.exr", "-o", "{}/seen.exr", "--frames", "1-3"}, "the output has no place for the frame's number"},
       {{"{}/in.####.exr", "-o", "{}/seen.%s.exr", "--frames", "1-3"}, "the output has no place"},
-      {{"{}/in.####.exr", "-o", "{}/seen.####.jpg", "--frames", "1-3"}, "must be named"},
+      {{"{}/in.####.exr", "-o", "{}/seen.####.gif", "--frames", "1-3"}, "must be named"},
       {{"{}/in.####.exr", "-o", "{}/seen.####.exr", "--frames", "3-1"}, "runs backwards"},
       {{"{}/in.####.exr", "-o", "{}/seen.####.exr", "--frames", "one"}, "is not a list of frames"},
       {{"{}/in.####.exr", "-o", "{}/seen.####.exr", "--frames", "1-3", "--frames-at-once", "0"}, "--frames-at-once"},
