@@ -17,7 +17,7 @@ if(SCOTOPIC_SANITIZE)
   target_link_options(scotopic_compile INTERFACE -fsanitize=${SCOTOPIC_SANITIZE} -Wl,--disable-new-dtags)
   # Two SIMD targets (AVX2 and the baseline) instead of five: instrumented vector code takes minutes to compile.
   target_compile_definitions(scotopic_compile INTERFACE
-    "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3)")
+    "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3|HWY_AVX3_DL)")
 endif()
 
 # scotopic_room(TARGET SOURCES...): adds the files of one room (folder) to its library.

@@ -77,11 +77,16 @@ std::string followed(const std::string& path) {
   return error ? at.string() : (real / at.filename()).string();
 }
 
-void sync_folder(const std::string& folder) {
+/// 0, or why the names in a folder may not be on the disk. A folder that may not be read, or a file system that does not
+/// sync folders, is no fault.
+int sync_folder(const std::string& folder) {
   const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  (void)fsync(descriptor);
+  if (descriptor < 0) return 0;
+  int error = 0;
+  do error = fsync(descriptor) == 0 ? 0 : errno;
+  while (error == EINTR);
   close(descriptor);
+  return error == EINVAL || error == EROFS || error == EOPNOTSUPP || error == ENOSYS ? 0 : error;
 }
 
 [[noreturn]] void refuse(const std::string& path, const std::string& what) {
@@ -271,8 +276,10 @@ void OutputFile::publish() {
   // All is safe already: there is nothing left that close() could lose.
   close(descriptor_);
   descriptor_ = -1;
-  // The name, too, should survive a power cut; a folder that cannot be synced is no reason to fail.
-  sync_folder(folder_);
+  // The name, too, should survive a power cut.
+  if (const int unsynced = sync_folder(folder_))
+    refuse(path_, std::string("is in place, but would not survive a power cut: its folder cannot be synced: ") +
+                      std::strerror(unsynced));
 }
 
 int files_in_place() noexcept { return published; }

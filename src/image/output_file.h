@@ -50,7 +50,8 @@ class OutputFile {
 
   /// Throws unless every byte is on the disk. The target is as it was.
   void complete();
-  /// Puts the completed file in its place, in one step; throws, and leaves the target as it was, if it cannot.
+  /// Puts the completed file in its place, in one step; throws, and leaves the target as it was, if it cannot. Throws, too,
+  /// where the file is in place but its folder cannot be synced.
   void publish();
   /// Both.
   void commit() {
