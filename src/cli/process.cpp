@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <clocale>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -40,6 +41,12 @@ void end_without_unwinding() {
   say_end(ExitCode::internal, "70", "internal error: an exception that nobody caught");
 }
 
+/// abort() of C libraries, and GLib's trap, mostly for want of memory where they are loaded.
+extern "C" void end_on_abort(int) {
+  remove_unfinished_files();
+  say_end(ExitCode::internal, "70", "internal error: a library ended the program");
+}
+
 /// A standard stream that is closed would give its number to the next file opened. Reading in place of writing,
 /// so that what is written there still fails.
 void open_standard_streams() {
@@ -65,6 +72,7 @@ void prepare_process(bool json) {
   std::setlocale(LC_ALL, "C");
   ignore_environment();
   std::set_terminate(end_without_unwinding);
+  for (const int s : {SIGABRT, SIGTRAP}) std::signal(s, end_on_abort);
   remove_unfinished_files_on_signals();
 }
 

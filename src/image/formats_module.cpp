@@ -2,9 +2,11 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <array>
+#include <cstddef>
 
 #include "image/error.h"
 
@@ -22,24 +24,36 @@ bool has_descriptors() {
   return all;
 }
 
-const FormatsModule* load() {
-  void* module = dlopen("scotopic_formats.so", RTLD_NOW | RTLD_LOCAL);
-  if (!module) module = dlopen(SCOTOPIC_MODULE_FOLDER "/scotopic_formats.so", RTLD_NOW | RTLD_LOCAL);
-  return module ? static_cast<const FormatsModule*>(dlsym(module, "scotopic_formats")) : nullptr;
+/// Others do where memory ends while they are loaded: they map some 450 MiB.
+bool has_address_space() {
+  constexpr std::size_t size = std::size_t{512} << 20;
+  void* const probe = mmap(nullptr, size, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (probe == MAP_FAILED) return false;
+  munmap(probe, size);
+  return true;
+}
+
+const FormatsModule* load(const std::string& file) {
+  const auto refuse = [&](ExitCode code, const std::string& reason) {
+    throw Error(code, file, "cannot load scotopic_formats.so, which knows TIFF, PNG, JPEG and HDR: " + reason);
+  };
+  if (!has_descriptors()) refuse(ExitCode::limit, "too few files can be opened");
+  if (!has_address_space()) refuse(ExitCode::limit, "512 MiB of address space are not to be had (ulimit -v)");
+  std::string reason;
+  for (const char* name : {"scotopic_formats.so", SCOTOPIC_MODULE_FOLDER "/scotopic_formats.so"}) {
+    if (void* const module = dlopen(name, RTLD_NOW | RTLD_LOCAL))
+      return static_cast<const FormatsModule*>(dlsym(module, "scotopic_formats"));
+    const char* const said = dlerror();
+    reason += (reason.empty() ? "" : "; ") + std::string(said ? said : "no reason given");
+  }
+  refuse(ExitCode::internal, reason);
+  return nullptr;
 }
 
 }  // namespace
 
 const FormatsModule& formats_module(const std::string& file) {
-  if (!has_descriptors())
-    throw Error(ExitCode::limit, file, "too few files can be opened to load what knows TIFF, PNG, JPEG and HDR");
-  static const FormatsModule* const module = load();
-  if (!module) {
-    const char* reason = dlerror();
-    throw Error(ExitCode::internal, file,
-                std::string("cannot load scotopic_formats.so, which knows TIFF, PNG, JPEG and HDR: ") +
-                    (reason ? reason : "not found"));
-  }
+  static const FormatsModule* const module = load(file);
   return *module;
 }
 

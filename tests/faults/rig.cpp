@@ -220,6 +220,9 @@ std::string broken_report(const Ended& ended, const std::vector<int>& codes) {
   if (ended.by_signal) return "crashed, " + said;
   if (std::find(codes.begin(), codes.end(), ended.exit_code) == codes.end()) return "exit code " + said;
   if (ended.exit_code == 0 || ended.exit_code > 128) return "";
+  // What a library says before it gives up stands before our line.
+  const std::string given_up = "scotopic: internal error: a library ended the program (nothing written)\n";
+  if (ended.err.ends_with(given_up)) return "";
   if (std::count(ended.err.begin(), ended.err.end(), '\n') != 1) return "not one line, " + said;
   if (ended.err.rfind("scotopic: ", 0) != 0 && ended.err.rfind("{\"error\"", 0) != 0) return "not our line, " + said;
   return "";
