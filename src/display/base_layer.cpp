@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 namespace scotopic {
@@ -22,6 +23,13 @@ float cube_of_log(float decades) {
 
 float log_of_cube(float cube) { return (std::cbrt(cube) - root_of_adaptation) * decades_per_root; }
 
+const DisplayParameters& checked(const DisplayParameters& p) {
+  for (const double x : {p.adaptation, p.white_luminance})
+    if (!(std::isfinite(x) && x > 0))
+      throw std::invalid_argument("BaseLayer: adaptation and white_luminance must be > 0");
+  return p;
+}
+
 AcuityParameters filter_parameters(const DisplayParameters& p) {
   AcuityParameters out;
   out.sigma = p.sigma;
@@ -34,7 +42,7 @@ AcuityParameters filter_parameters(const DisplayParameters& p) {
 
 BaseLayer::Plan::Plan(const DisplayParameters& p) : light(p), filter(filter_parameters(p)) {}
 
-BaseLayer::BaseLayer(const DisplayParameters& parameters) : plan_(std::make_unique<const Plan>(parameters)) {}
+BaseLayer::BaseLayer(const DisplayParameters& parameters) : plan_(std::make_unique<const Plan>(checked(parameters))) {}
 BaseLayer::~BaseLayer() = default;
 
 int BaseLayer::halo() const noexcept { return plan_->filter.halo(); }

@@ -22,9 +22,8 @@ void require(bool holds, const char* what) {
 
 bool positive(double x) { return std::isfinite(x) && x > 0; }
 
+// Beside what the base layer demands.
 void check(const DisplayParameters& p, const DisplayRange& range) {
-  require(positive(p.adaptation), "adaptation must be > 0");
-  require(positive(p.white_luminance), "white_luminance must be > 0");
   require(p.strength >= 0 && p.strength <= 1, "strength must be 0 ... 1");
   require(std::isfinite(p.contrast) && p.contrast >= 1, "contrast must be >= 1");
   require(positive(p.peak), "peak must be > 0");

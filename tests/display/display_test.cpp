@@ -213,6 +213,7 @@ TEST(Display, a_parameter_out_of_its_domain_is_refused) {
   refuses([](DisplayParameters& p, DisplayRange&) { p.night_range = 1.5; });
   refuses([](DisplayParameters& p, DisplayRange&) { p.night_exponent = std::nan(""); });
   refuses([](DisplayParameters& p, DisplayRange&) { p.adaptation = 0; });
+  refuses([](DisplayParameters& p, DisplayRange&) { p.white_luminance = -1; });
   refuses([](DisplayParameters&, DisplayRange& r) { r.low = 0; });
   refuses([](DisplayParameters&, DisplayRange& r) { r.low = 2; });
   EXPECT_NO_THROW(DisplayFilter(parameters(), range));
