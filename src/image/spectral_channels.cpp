@@ -202,7 +202,7 @@ double wavelength_from_text(std::string_view text, const std::string& channel) {
   const auto factor = factor_of_prefix(unit.substr(0, unit.size() - (hertz ? 2 : 1)));
   if (!factor) fail(channel, "has an unknown unit");
   const double value = parse_number(text.substr(0, length), channel) * *factor;
-  const double nm = nm_per_m * (hertz ? speed_of_light / value : value);
+  const double nm = value == 0 ? 0 : nm_per_m * (hertz ? speed_of_light / value : value);
   if (!(std::isfinite(nm) && nm > 0.0)) fail(channel, "has a wavelength that is not positive and finite");
   return nm;
 }
