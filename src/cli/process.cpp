@@ -16,7 +16,7 @@
 namespace scotopic {
 namespace {
 
-bool ends_in_json = false;
+bool ends_in_json = false, running = false;
 
 void write_all(const char* text) { (void)!write(STDERR_FILENO, text, std::strlen(text)); }
 
@@ -41,10 +41,14 @@ void end_without_unwinding() {
   say_end(ExitCode::internal, "70", "internal error: an exception that nobody caught");
 }
 
-/// abort() of C libraries, and GLib's trap, mostly for want of memory where they are loaded.
-extern "C" void end_on_abort(int) {
+// abort() and exit() of C libraries, and GLib's trap: mostly for want of memory while they are loaded.
+void end_by_library() {
   remove_unfinished_files();
   say_end(ExitCode::internal, "70", "internal error: a library ended the program");
+}
+extern "C" void end_on_abort(int) { end_by_library(); }
+extern "C" void end_on_exit() {
+  if (running) end_by_library();
 }
 
 /// A standard stream that is closed would give its number to the next file opened. Reading in place of writing,
@@ -66,8 +70,10 @@ void ignore_environment() {
 
 }  // namespace
 
-void prepare_process(bool json) {
-  ends_in_json = json;
+Process::Process(bool json) {
+  ends_in_json = json, running = true;
+  static const int registered = std::atexit(end_on_exit);
+  (void)registered;
   open_standard_streams();
   std::setlocale(LC_ALL, "C");
   ignore_environment();
@@ -75,5 +81,7 @@ void prepare_process(bool json) {
   for (const int s : {SIGABRT, SIGTRAP}) std::signal(s, end_on_abort);
   remove_unfinished_files_on_signals();
 }
+
+Process::~Process() { running = false; }
 
 }  // namespace scotopic

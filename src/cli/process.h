@@ -3,10 +3,16 @@
 
 namespace scotopic {
 
-/// Once, before anything else. Numbers have a point in every locale; of the environment only what SECURITY.md
+/// One, before anything else and until main() returns. Numbers have a point in every locale; of the environment only what SECURITY.md
 /// lists has effect; descriptors 0 to 2 are open, so that no file of ours can become one of them; signals
-/// remove unfinished files; an exception that nobody can catch ends in one line (`json`: one object) and exit
-/// code 4 or 70, not in a crash.
-void prepare_process(bool json);
+/// remove unfinished files; an exception that nobody can catch, and a library that ends the program, end in one
+/// line (`json`: one object) and exit code 4 or 70, not in a crash.
+class Process {
+ public:
+  explicit Process(bool json);
+  ~Process();
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+};
 
 }  // namespace scotopic

@@ -90,7 +90,7 @@ int print_wish(const CLI::App& program, const CLI::Success& wish, bool json) {
 
 int run_program(int argc, char** argv, const std::vector<AddVerb>& verbs) {
   const bool json = asks_for_json(argc, argv);
-  prepare_process(json);
+  const Process process(json);
   (void)on_terminal();  // before anything else may close or lend descriptor 2
   CLI::App program("Shows images as the dark-adapted eye sees them: rods, cones, and the way between.",
                    "scotopic");
