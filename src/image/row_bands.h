@@ -24,19 +24,19 @@ void parallel_rows(int rows, int chunk_rows, Work work) {
   std::exception_ptr failure;
   std::mutex failure_lock;
   // What the pool guarantees anyhow, where ThreadSanitizer can see it: it does not see into OpenImageIO.
-  std::atomic<int> hand_over{0};
-  hand_over.store(1, std::memory_order_release);
+  std::atomic<int> begun{0}, ended{0};
+  begun.store(1, std::memory_order_release);
   OIIO::parallel_for_chunked(0, rows, chunk_rows, [&](std::int64_t first, std::int64_t last) {
-    (void)hand_over.load(std::memory_order_acquire);
+    (void)begun.load(std::memory_order_acquire);
     try {
       work(static_cast<int>(first), static_cast<int>(last));
     } catch (...) {
       const std::lock_guard lock(failure_lock);
       failure = std::current_exception();
     }
-    hand_over.fetch_add(1, std::memory_order_release);
+    ended.fetch_add(1, std::memory_order_release);
   });
-  (void)hand_over.load(std::memory_order_acquire);
+  (void)ended.load(std::memory_order_acquire);
   if (failure) std::rethrow_exception(failure);
 }
 
