@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <new>
 
 #include "adaptation/mesopic.h"
 #include "appearance/constants.h"
@@ -178,6 +179,7 @@ class WideConstants {
   /// Spreads each number.
   explicit WideConstants(const OperatorConstants& c)
       : numbers(c), wide_(hwy::AllocateAligned<T>(count * lanes)) {
+    if (!wide_) throw std::bad_alloc();
     for (std::size_t i = 0; i < count; ++i) {
       T number{};
       std::memcpy(&number, reinterpret_cast<const std::byte*>(&numbers) + i * sizeof(T), sizeof number);

@@ -77,7 +77,9 @@ void sweep(const Subject& subject, const Fault& fault, long most, Seen& seen) {
       take_empty_folders(now, subject.before);
     }
     std::string wrong = broken_promise(now, subject.before, subject.after, ended);
-    if (wrong.empty() && !(fault.uncatchable && ended.exit_code == 137)) wrong = broken_report(ended, fault.codes);
+    const bool forgiven = (fault.uncatchable && ended.exit_code == 137) ||
+                          (fault.loads_libraries && (ended.exit_code == 127 || ended.exit_code == 139));
+    if (wrong.empty() && !forgiven) wrong = broken_report(ended, fault.codes);
     if (wrong.empty() && fault.uncatchable) {
       // What lies there now must not stand in the way, and must go. (A config's looks cannot be added twice, and
       // what was applied in place would be applied again.)

@@ -27,6 +27,7 @@ struct Fault {
   bool sticky = false;
   std::vector<int> codes = {0, 5};     ///< exit codes that are right
   bool uncatchable = false;            ///< nothing can be done about a hidden temporary or an empty folder, then
+  bool loads_libraries = false;        ///< that may crash, as long as every file is old or new: exit codes 127 and 139
 };
 
 struct Seen {
