@@ -11,5 +11,6 @@ for room in $rooms properties; do
   cmake --build --preset coverage --target "test_$room" >/dev/null
   SCOTOPIC_DRAWS=1e5 SCOTOPIC_STRIDE=65536 "build/coverage/tests/$room/test_$room" --gtest_brief=1
 done
+# Threads that count at once can leave a branch's number below 0, which gcovr takes for an error.
 gcovr --root . --object-directory build/coverage --filter "src/($(echo $rooms | tr ' ' '|'))/" --fail-under-line 95 \
-  --exclude-unreachable-branches --exclude-throw-branches -j "$(nproc)" build/coverage
+  --gcov-ignore-parse-errors -j "$(nproc)" build/coverage
