@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <mutex>
 #include <new>
 
 #include "image/base_config.h"
@@ -19,6 +20,9 @@ namespace {
 
 // Lossless optimisations only: the others trade exactness of log, exp and LUTs for speed.
 constexpr OCIO::OptimizationFlags optimisation = OCIO::OPTIMIZATION_LOSSLESS;
+
+// While it makes a processor OpenColorIO 2.1 reads its environment into one string, whichever thread it is.
+std::mutex making_processors;
 
 // OCIO computes in float: what it does to a vector differs from a matrix by no more than this.
 constexpr double linear_tolerance = 1e-5;
@@ -123,6 +127,7 @@ OCIO::ConstCPUProcessorRcPtr ColourConfig::processor(const std::string& from, co
   both->setDst(to.c_str());
   check_lut_files(config_, both, limits_);
   try {
+    const std::lock_guard lock(making_processors);
     const OCIO::ConstProcessorRcPtr way = config_->getProcessor(from.c_str(), to.c_str());
     require_usable_luts(way, file_);
     const OCIO::ConstCPUProcessorRcPtr out =
@@ -241,6 +246,7 @@ std::string ColourConfig::looks_of(const DisplayView& view) const {
 
 OCIO::ConstCPUProcessorRcPtr ColourConfig::processor(const DisplayView& to) const {
   try {
+    const std::lock_guard lock(making_processors);
     return config_->getProcessor(working_space_.c_str(), to.display.c_str(), to.view.c_str(),
                                  OCIO::TRANSFORM_DIR_FORWARD)
         ->getOptimizedCPUProcessor(OCIO::BIT_DEPTH_F32, OCIO::BIT_DEPTH_F32, optimisation);
