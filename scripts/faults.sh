@@ -1,7 +1,7 @@
 #!/bin/sh
 # The long form of the fault tests: every fault at every place, 200 kills per writing verb, and what the neighbours
 # (oiiotool, ocioconvert, ociobakelut) do. Builds what is needed; prints the table of docs/faults.md; exit code 1
-# if a promise was broken. Takes an hour or so on two processors; SCOTOPIC_FAULTS=short for the form of the suite.
+# if a promise was broken. Takes two hours or so on two processors; SCOTOPIC_FAULTS=short for the form of the suite.
 set -eu
 cd "$(dirname "$0")/.."
 preset=${1:-release}

@@ -24,7 +24,7 @@ long most(const Subject& subject, long quick, long slow) {
   return long_form() ? 100000 : subject.verb->slow ? slow : quick;
 }
 
-void sweep_all(const Fault& fault, const std::string& expected, long quick = 30, long slow = 3) {
+void sweep_all(const Fault& fault, const std::string& expected, long quick = 12, long slow = 2) {
   Seen seen;
   for (const Subject& subject : subjects()) sweep(subject, fault, most(subject, quick, slow), seen);
   tally(fault.name, seen.tries, expected, text_of(seen));
@@ -60,7 +60,7 @@ TEST(Disk, not_synced_is_not_done) {
 
 TEST(Disk, a_file_that_cannot_be_closed_is_not_done) {
   sweep_all({"the k-th close fails (EIO)", "close", number(EIO), false, {0, 3, 5, 6}},
-            "exit 5, the old files; 0 where nothing can be lost", 12, 2);
+            "exit 5, the old files; 0 where nothing can be lost", 8, 1);
 }
 
 TEST(Disk, no_file_can_be_made) {
@@ -89,14 +89,14 @@ TEST(Disk, no_folder_can_be_made) {
 
 TEST(Disk, killed_before_every_change) {
   sweep_all({"kill -9 before the k-th change to the disk", "event", "kill", false, {137}, true},
-            "each file old or new; the next run does its work", 40, 4);
+            "each file old or new; the next run does its work", 20, 2);
 }
 
 TEST(Disk, told_to_end_at_every_change) {
   for (const auto& [name, signal] : {std::pair{"SIGTERM", SIGTERM}, {"SIGINT", SIGINT}, {"SIGHUP", SIGHUP}, {"SIGPIPE", SIGPIPE}})
     sweep_all({std::string(name) + " at the k-th change to the disk", "event", "signal" + number(signal), false,
                {128 + signal, 0}},
-              "exit 128+n, each file old or new, nothing else", signal == SIGTERM ? 20 : 6, 1);
+              "exit 128+n, each file old or new, nothing else", signal == SIGTERM ? 12 : 4, 1);
 }
 
 }  // namespace

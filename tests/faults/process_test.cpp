@@ -187,7 +187,7 @@ void at_random(const Subject& subject, int signal, long tries, Seen& seen) {
 TEST(Signals, kill_at_any_instant_leaves_the_old_file_or_the_new) {
   Seen seen;
   for (const WritingVerb& v : writing_verbs())
-    at_random(subject_of(v), SIGKILL, long_form() ? 200 : v.slow ? 2 : 15, seen);
+    at_random(subject_of(v), SIGKILL, long_form() ? 200 : v.slow ? 1 : 12, seen);
   tally("kill -9 at a random instant", seen.tries, "each file old or new", text_of(seen));
 }
 
@@ -195,7 +195,7 @@ TEST(Signals, at_any_instant_they_end_the_program_and_leave_nothing) {
   for (const auto& [name, signal] : {std::pair{"SIGINT", SIGINT}, {"SIGTERM", SIGTERM}, {"SIGHUP", SIGHUP}}) {
     Seen seen;
     for (const WritingVerb& v : writing_verbs())
-      if (!v.slow || long_form()) at_random(subject_of(v), signal, long_form() ? 50 : 8, seen);
+      if (!v.slow || long_form()) at_random(subject_of(v), signal, long_form() ? 50 : 6, seen);
     tally(std::string(name) + " at a random instant", seen.tries, "exit 128+n, each file old or new, nothing else",
           text_of(seen));
   }
