@@ -278,7 +278,7 @@ void OutputFile::publish() {
   descriptor_ = -1;
   // The name, too, should survive a power cut.
   if (const int unsynced = sync_folder(folder_))
-    refuse(path_, std::string("is in place, but would not survive a power cut: its folder cannot be synced: ") +
+    refuse(path_, std::string("is in place, but might not survive a power cut: its folder cannot be synced: ") +
                       std::strerror(unsynced));
 }
 
