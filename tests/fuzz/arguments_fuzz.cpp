@@ -1,11 +1,10 @@
 // Command lines, one argument a line. Verbs on images run, on the files that lie in the scratch folder; paths are kept
-// inside it. Verbs that bake are only parsed: each takes seconds.
+// inside it. Verbs that bake are only parsed: each takes seconds. They speak on stdout and stderr: see -close_fd_mask.
 #include <CLI/CLI.hpp>
 #include <OpenEXR/ImfArray.h>
 #include <OpenEXR/ImfRgbaFile.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <sstream>
 
@@ -43,7 +42,7 @@ void enter_scratch() {
     Imf::RgbaOutputFile file("in.exr", 4, 4);
     file.setFrameBuffer(&pixels[0][0], 1, 4);
     file.writePixels(4);
-    return std::freopen("/dev/null", "w", stderr) != nullptr;
+    return true;
   }();
   (void)once;
 }
