@@ -2,6 +2,7 @@
 # Installs what is needed, builds, and runs every test. Ends with ctest's closing lines.
 #   scripts/test.sh            release build
 #   scripts/test.sh asan-ubsan the same suite under AddressSanitizer and UndefinedBehaviorSanitizer
+#   scripts/test.sh tsan       the same suite under ThreadSanitizer
 set -eu
 cd "$(dirname "$0")/.."
 preset=${1:-release}
