@@ -60,6 +60,20 @@ T* elements(const NativeRow& row) {
   return reinterpret_cast<T*>(row.data);
 }
 
+/// Whether all bits of `exponent` are set in any value: one pass without branches.
+template <typename Bits>
+bool any_has(Bits exponent, const std::byte* at, std::ptrdiff_t stride, std::size_t count) {
+  unsigned any = 0;
+  for (std::size_t i = 0; i < count; ++i) any |= (load<Bits>(at + static_cast<std::ptrdiff_t>(i) * stride) & exponent) == exponent;
+  return any != 0;
+}
+
+template <typename Bits>
+bool any_has(Bits exponent, const NativeRow& row, std::size_t count) {
+  constexpr std::ptrdiff_t packed = sizeof(Bits);  // a stride known to the compiler: vectors
+  return row.stride == packed ? any_has(exponent, row.data, packed, count) : any_has(exponent, row.data, row.stride, count);
+}
+
 }  // namespace
 
 std::size_t size_of(PixelType type) {
@@ -90,6 +104,15 @@ std::string_view name_of(PixelType type) {
       return "float";
   }
   return "";
+}
+
+bool any_non_finite(const NativeRow& row, std::size_t count) {
+  if (row.type == PixelType::half) return any_has<std::uint16_t>(0x7c00, row, count);
+  return row.type == PixelType::float32 && any_has<std::uint32_t>(0x7f800000, row, count);
+}
+
+bool any_non_finite(const float* values, std::size_t count) {
+  return any_has<std::uint32_t>(0x7f800000, reinterpret_cast<const std::byte*>(values), sizeof(float), count);
 }
 
 void load_row(const NativeRow& row, std::size_t count, float* out) {
