@@ -3,6 +3,7 @@
 #include <Imath/half.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -60,18 +61,19 @@ T* elements(const NativeRow& row) {
   return reinterpret_cast<T*>(row.data);
 }
 
-/// Whether all bits of `exponent` are set in any value: one pass without branches.
-template <typename Bits>
-bool any_has(Bits exponent, const std::byte* at, std::ptrdiff_t stride, std::size_t count) {
-  unsigned any = 0;
-  for (std::size_t i = 0; i < count; ++i) any |= (load<Bits>(at + static_cast<std::ptrdiff_t>(i) * stride) & exponent) == exponent;
-  return any != 0;
-}
-
+/// Whether all bits of `exponent` are set in any value: passes without branches, in vectors where values lie together.
 template <typename Bits>
 bool any_has(Bits exponent, const NativeRow& row, std::size_t count) {
-  constexpr std::ptrdiff_t packed = sizeof(Bits);  // a stride known to the compiler: vectors
-  return row.stride == packed ? any_has(exponent, row.data, packed, count) : any_has(exponent, row.data, row.stride, count);
+  Bits any = 0;
+  const auto see = [&](Bits value) { any = static_cast<Bits>(any | static_cast<Bits>((value & exponent) == exponent)); };
+  if (packed(row)) {
+    const Bits* values = elements<const Bits>(row);
+    for (std::size_t i = 0; i < count; ++i) see(values[i]);
+  } else {
+    const std::byte* at = row.data;
+    for (std::size_t i = 0; i < count; ++i, at += row.stride) see(load<Bits>(at));
+  }
+  return any != 0;
 }
 
 }  // namespace
@@ -112,7 +114,9 @@ bool any_non_finite(const NativeRow& row, std::size_t count) {
 }
 
 bool any_non_finite(const float* values, std::size_t count) {
-  return any_has<std::uint32_t>(0x7f800000, reinterpret_cast<const std::byte*>(values), sizeof(float), count);
+  std::uint32_t any = 0;
+  for (std::size_t i = 0; i < count; ++i) any |= (std::bit_cast<std::uint32_t>(values[i]) & 0x7f800000u) == 0x7f800000u;
+  return any != 0;
 }
 
 void load_row(const NativeRow& row, std::size_t count, float* out) {
