@@ -217,7 +217,7 @@ nlohmann::ordered_json ApplyJob::run(const FrameTask& task, const Console& conso
   nlohmann::ordered_json result = result_of(task.paths, frame.numbers, layout, stamps, source);
   result["effects"] = plan_json(frame.plan);
   result["nonFinite"] = report_non_finite(
-      unseen + watch.count(), non_finite_ == NonFinite::clean ? "cleaned" : "passed as they are (--nonfinite)", source,
+      unseen + watch.count(), non_finite_ == NonFinite::clean ? "cleaned" : "passed on without the operator (--nonfinite)", source,
       layout, settings_.config, console);
   if (!way.report.is_null()) result["ways"] = way.report;
   if (!display.report.is_null()) result["display"] = display.report;

@@ -1,6 +1,11 @@
 // Pixels that are no light: told of once, by every verb that writes, whatever is done to the others.
 #include <OpenEXR/ImfArray.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfRgbaFile.h>
+#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -113,6 +118,57 @@ TEST_F(NonFiniteReport, lmsr_tells_of_them_too) {
   ASSERT_EQ(said.exit_code, 0) << said.err;
   EXPECT_NE(said.err.find("2 pixels are not finite, the first at (513, 3)"), said.err.npos) << said.err;
   EXPECT_EQ(nlohmann::json::parse(run({"lmsr", "--json"}).out).at("nonFinite"), 2);
+}
+
+TEST_F(NonFiniteReport, spectra_that_are_not_finite_are_told_of_and_spoil_no_other_pixel) {
+  Imf::Header header(width, height);
+  const char* bands[] = {"S0.450,0nm", "S0.550,0nm", "S0.650,0nm"};
+  std::vector<float> light(width * height, 0.2f), hole = light;
+  hole[bad[0].y * width + bad[0].x] = std::numeric_limits<float>::quiet_NaN();
+  hole[bad[1].y * width + bad[1].x] = std::numeric_limits<float>::infinity();
+  Imf::FrameBuffer frame;
+  for (const char* band : bands) {
+    header.channels().insert(band, Imf::Channel(Imf::FLOAT));
+    frame.insert(band, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(band == bands[1] ? hole.data() : light.data()),
+                                  sizeof(float), sizeof(float) * width));
+  }
+  {
+    Imf::OutputFile file(path("in.exr").c_str(), header);
+    file.setFrameBuffer(frame);
+    file.writePixels(height);
+  }
+  for (const char* verb : {"lmsr", "apply"})
+    for (const char* threads : {"1", "3"}) {
+      SCOPED_TRACE(std::string(verb) + " on threads: " + threads);
+      std::vector<std::string> arguments = {verb, "--threads", threads};
+      if (verb == std::string("apply")) arguments.insert(arguments.end(), {"--adaptation", "0.05"});
+      const test::Outcome said = run(arguments);
+      ASSERT_EQ(said.exit_code, 0) << said.err;
+      EXPECT_NE(said.err.find("2 pixels are not finite, the first at (513, 3)"), said.err.npos) << said.err;
+      if (verb == std::string("apply")) {
+        EXPECT_EQ(bad_pixels(), 2);
+      }
+    }
+}
+
+TEST_F(NonFiniteReport, colour_beside_an_alpha_that_is_no_number_stays_colour) {
+  // TIFF holds alpha beside colour, OpenEXR multiplied into it.
+  for (const float alpha : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    OIIO::ImageSpec spec(4, 1, 4, OIIO::TypeDesc::FLOAT);
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    std::vector<float> pixels(16, 0.5f);
+    pixels[7] = alpha;
+    const auto tiff = OIIO::ImageOutput::create(path("in.tif"));
+    ASSERT_TRUE(tiff && tiff->open(path("in.tif"), spec) && tiff->write_image(OIIO::TypeDesc::FLOAT, pixels.data()));
+    tiff->close();
+    const test::Outcome said =
+        test::run_program({"apply", path("in.tif"), "-o", path("out.exr"), "--adaptation", "0.05", "-d", "float"});
+    ASSERT_EQ(said.exit_code, 0) << said.err;
+    const auto exr = OIIO::ImageInput::open(path("out.exr"));
+    std::vector<float> seen(16);
+    ASSERT_TRUE(exr && exr->read_image(0, 0, 0, 4, OIIO::TypeDesc::FLOAT, seen.data()));
+    for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(std::isfinite(seen[i]), i != 7) << i;
+  }
 }
 
 }  // namespace
