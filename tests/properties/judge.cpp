@@ -18,10 +18,27 @@ double size_in(const Sample& in, Planes planes) {
   return size;
 }
 
+namespace {
+
+double least_size(Way way) { return way == Way::dual ? 0x1p-126 : way == Way::single ? 0x1p-120 : 0; }
+
+}  // namespace
+
+double component_error(const Vec3<double>& got, const Summed<long double>& exact, Way way) {
+  double worst = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto error = static_cast<double>(std::abs(got[i] - exact.value[i]));
+    if (error == 0) continue;
+    worst = std::isfinite(error) ? std::max(worst, error / std::max(least_size(way), static_cast<double>(exact.terms[i])))
+                                 : INFINITY;
+  }
+  return worst;
+}
+
 template <typename Real>
 double relative_error(const Vec3<double>& got, const Vec3<Real>& exact, const Sample& in, Planes planes, Way way) {
   using std::abs;
-  double size = way == Way::dual ? 0x1p-126 : way == Way::single ? 0x1p-120 : 0, worst = 0;
+  double size = least_size(way), worst = 0;
   size = std::max(size, size_in(in, planes));
   for (const Real& x : exact) size = std::max(size, std::abs(static_cast<double>(x)));
   for (std::size_t i = 0; i < 3; ++i) {
@@ -54,8 +71,16 @@ Strain strain(const OperatorConstants& c, const Sample& sample, Planes planes) {
   return out;
 }
 
+double allowed_in_double(const Strain& strain) {
+  return strain.cancelled ? 1e-9 + 0x1p-44 * strain.root : 2e-13 + 0x1p-47 * strain.root;
+}
+
+double allowed_component_error(Way way, RodEstimate rods, const Strain& strain) {
+  return allowed_error(way, rods, strain);
+}
+
 double allowed_error(Way way, RodEstimate rods, const Strain& strain) {
-  const double in_double = strain.cancelled ? 1e-9 + 0x1p-44 * strain.root : 2e-13 + 0x1p-47 * strain.root;
+  const double in_double = allowed_in_double(strain);
   if (way == Way::reference) return in_double;
   if (way == Way::dual) return 0x1p-24 + in_double;
   return (strain.cancelled ? 8e-6 : rods == RodEstimate::quadratic ? 4e-6 : 2e-6) + in_double;

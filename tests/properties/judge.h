@@ -19,6 +19,10 @@ inline constexpr std::array<const char*, 3> way_names = {"reference", "single", 
 template <typename Real>
 double relative_error(const Vec3<double>& got, const Vec3<Real>& exact, const Sample& in, Planes planes, Way way);
 
+/// The same component by component: each difference over the sum of |terms| that the component is made of, so that a
+/// small component beside a large one counts. Floats below `least` as above.
+double component_error(const Vec3<double>& got, const Summed<long double>& exact, Way way);
+
 /// The largest component that came in, the receptor signals given among them.
 double size_in(const Sample& sample, Planes planes);
 
@@ -38,6 +42,12 @@ Strain strain(const OperatorConstants& constants, const Sample& sample, Planes p
 /// for a cancelled pixel.
 double allowed_error(Way way, RodEstimate rods, const Strain& strain);
 
+/// The part of it that double has, whatever the way.
+double allowed_in_double(const Strain& strain);
+
+/// Allowed for component_error.
+double allowed_component_error(Way way, RodEstimate rods, const Strain& strain);
+
 /// A setting with all three ways of computing.
 struct Ways {
   explicit Ways(const AppearanceParameters& parameters)
@@ -48,7 +58,7 @@ struct Ways {
 
 /// The worst pixel of one regime by one way; every pixel's error in a histogram of octaves of 2^-60.
 struct Worst {
-  double error = -1;
+  double error = -1, component = -1;
   Planes planes = Planes::rgb;
   std::string setting;
   Sample sample;
