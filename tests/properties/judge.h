@@ -26,10 +26,11 @@ double component_error(const Vec3<double>& got, const Summed<long double>& exact
 /// The largest component that came in, the receptor signals given among them.
 double size_in(const Sample& sample, Planes planes);
 
-/// What a pixel asks of the arithmetic.
+/// What a pixel asks of the arithmetic: nothing where it passes as it is (from 5 cd/m2 on, or beyond 2^120).
 struct Strain {
   /// Condition of the kernel's root: how many times larger than in q and r a relative error is in
-  /// 1 + gain T (q + kappa r). About 1 for light; 1e6 and more where rods cancel a negative cone signal.
+  /// 1 + gain T (q + kappa r). About 1 for light; 1e6 and more where rods cancel a negative cone signal to 2^-20 of its
+  /// terms; 0 where the sum is further below 0, hence clamped whatever its last digits.
   double root = 0;
   /// Luminance, or a cone signal, is the rest of a cancellation of RGB: no colour of light.
   bool cancelled = false;
@@ -45,8 +46,8 @@ double allowed_error(Way way, RodEstimate rods, const Strain& strain);
 /// The part of it that double has, whatever the way.
 double allowed_in_double(const Strain& strain);
 
-/// Allowed for component_error.
-double allowed_component_error(Way way, RodEstimate rods, const Strain& strain);
+/// Allowed for component_error, in regimes of light.
+double allowed_component_error(Way way);
 
 /// A setting with all three ways of computing.
 struct Ways {
@@ -58,7 +59,8 @@ struct Ways {
 
 /// The worst pixel of one regime by one way; every pixel's error in a histogram of octaves of 2^-60.
 struct Worst {
-  double error = -1, component = -1;
+  double error = -1;
+  double component = 0;  // the worst component_error, of pixels that are not cancelled
   Planes planes = Planes::rgb;
   std::string setting;
   Sample sample;

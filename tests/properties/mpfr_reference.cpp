@@ -308,12 +308,13 @@ Summed<Real> ExactOperator<Real>::with_terms(const ReferencePixel& pixel) const 
   const Real local = p.weight == Weight::global ? la : Real(la + unit * at_least_0(y));
   if (local >= Real(5)) return out;
   const Real m = exact_mesopic_coefficient(local, dec<Real>("2.4648"));
-  const Real all(p.strength.all), w = Real(p.strength.shift) * all * (Real(1) - m);
+  const Real all(p.strength.all), full = Real(p.strength.shift) * all, w = full * (Real(1) - m);
 
   if (w > Real(0)) {
-    const Triple<Real> rods = times(Real(w / unit), damped_rods(times(unit, q.value), Real(unit * rod)));
-    out.value = plus(out.value, s_.rgb_from_lms * (s_.cone_shift * rods));
-    out.terms = plus(out.terms, absolute(s_.rgb_from_lms) * (absolute(s_.cone_shift) * rods));
+    const Triple<Real> rods = times(Real(Real(1) / unit), damped_rods(times(unit, q.value), Real(unit * rod)));
+    out.value = plus(out.value, s_.rgb_from_lms * (s_.cone_shift * times(w, rods)));
+    // Of w = 1 - m: 1, however little is left near 4.998 cd/m2.
+    out.terms = plus(out.terms, absolute(s_.rgb_from_lms) * (absolute(s_.cone_shift) * times(full, rods)));
     if (p.xyz_from_gamut) {
       Triple<Real> bound = s_.gamut_from_rgb * rgb;
       for (auto& b : bound) b = b < Real(0) ? b : Real(0);
@@ -337,15 +338,17 @@ Summed<Real> ExactOperator<Real>::with_terms(const ReferencePixel& pixel) const 
         const Real relative = abs(Real(cones[i] / s_.cone_white[i]));
         if (relative > largest) largest = relative;
       }
-    const Real ratio = regularised_ratio(from, to, largest);
-    out = {times(ratio, out.value), times(ratio, out.terms)};
+    const Real ratio = regularised_ratio(from, to, largest), size = abs(from);
+    out.value = times(ratio, out.value);
+    out.terms = times(size * Real(64) < largest ? Real(ratio + Real(1)) : ratio, out.terms);
   }
   const Real faded = Real(p.strength.chroma) * all * (Real(1) - exact_chroma_factor(local));
   const Triple<Real>& weights = s_.xyz_from_rgb[1];
   const Real grey = inner(weights, out.value), grey_terms = inner(absolute(weights), out.terms);
+  if (!(faded > Real(0))) return out;
   for (std::size_t i = 0; i < 3; ++i) {
-    out.value[i] = out.value[i] + faded * (grey - out.value[i]);
-    out.terms[i] = out.terms[i] + faded * (grey_terms - out.terms[i]);
+    out.value[i] = grey + (Real(1) - faded) * (out.value[i] - grey);
+    out.terms[i] = grey_terms + (Real(1) - faded) * out.terms[i];
   }
   return out;
 }

@@ -92,12 +92,6 @@ Sum sum_of(const Vec3<double>& row, const Vec3<double>& v) {
   return out;
 }
 
-double local_luminance(const OperatorConstants& c, const Vec3<double>& rgb) {
-  const auto& p = c.parameters;
-  const double y = p.weight == Weight::global ? 0 : dot(c.luminance_from_rgb, rgb);
-  return p.adaptation + std::max(0.0, p.white_luminance * y);
-}
-
 Vec3<double> cones_of(const OperatorConstants& c, const ReferencePixel& pixel) {
   return pixel.cones ? *pixel.cones : c.lms_from_rgb * pixel.rgb;
 }
@@ -252,6 +246,12 @@ double Random::uniform(double from, double to) {
 double Random::log_uniform(double from, double to) { return from * std::exp2(uniform(0, std::log2(to / from))); }
 
 const char* name(Regime regime) { return names[static_cast<std::size_t>(regime)]; }
+
+double local_luminance(const OperatorConstants& c, const Vec3<double>& rgb) {
+  const auto& p = c.parameters;
+  const double y = p.weight == Weight::global ? 0 : dot(c.luminance_from_rgb, rgb);
+  return p.adaptation + std::max(0.0, p.white_luminance * y);
+}
 
 const char* name(Threshold threshold) { return threshold_names[static_cast<std::size_t>(threshold)]; }
 

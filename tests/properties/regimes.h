@@ -84,6 +84,9 @@ enum class Threshold {
 inline constexpr int threshold_count = static_cast<int>(Threshold::count);
 const char* name(Threshold threshold);
 
+/// La + max(0, Y), cd/m2, or La alone.
+double local_luminance(const OperatorConstants& constants, const Vec3<double>& rgb);
+
 /// Whether a sample, with or without its receptor planes, lies within 8 ulp of float: 2^-20 of what is summed there.
 bool is_at(Threshold threshold, const OperatorConstants& constants, const Sample& sample, Planes planes);
 
