@@ -78,11 +78,11 @@ Strain strain(const OperatorConstants& c, const Sample& sample, Planes planes) {
 }
 
 double allowed_in_double(const Strain& strain) {
-  return strain.cancelled ? 1e-9 + 0x1p-44 * strain.root : 2e-13 + 0x1p-47 * strain.root;
+  return strain.cancelled ? 2e-9 + 0x1p-44 * strain.root : 2e-13 + 0x1p-47 * strain.root;
 }
 
 double allowed_component_error(Way way) {
-  return way == Way::reference ? 1e-12 : way == Way::dual ? 0x1p-24 + 1e-12 : 2e-4;
+  return way == Way::reference ? 2e-12 : way == Way::dual ? 0x1p-24 + 2e-12 : 1e-3;
 }
 
 double allowed_error(Way way, RodEstimate rods, const Strain& strain) {

@@ -37,7 +37,7 @@ struct Strain {
 };
 Strain strain(const OperatorConstants& constants, const Sample& sample, Planes planes);
 
-/// Allowed for a way and a pixel. In double 2e-13, and 2^-47 of the root's condition; 1e-9 and 2^-44 of it for a
+/// Allowed for a way and a pixel. In double 2e-13, and 2^-47 of the root's condition; 2e-9 and 2^-44 of it for a
 /// cancelled pixel, whose luminance matters 64^2 times more than its RGB (luminance_floor, twice in the ratio). reference: that; dual: one
 /// rounding to float more. single: 2e-6; 4e-6 with quadratic rods, whose polynomial cancels to a tenth in the reds; 8e-6
 /// for a cancelled pixel.

@@ -32,7 +32,7 @@ enum class Regime {
   zero,               ///< +0 and -0, alone or mixed with light
   subnormal,          ///< below 1.2e-38
   tiny,               ///< 1e-38 to 1e-20
-  huge,               ///< 1e20 to 2^120, the limit, and a little beyond
+  huge,               ///< 1e20 to the largest float; 2^120, beyond which pixels pass as they are, to a few ulp
   half_extremes,      ///< 65504, 6e-8, 6.1e-5: the ends of the half type
   grey,               ///< equal components
   opponent_zero,      ///< L - M cancels, to a few ulp
@@ -48,7 +48,6 @@ enum class Regime {
   projection_face,    ///< a component around 0, of the input or, to a few ulp, of the shifted colour
   mixed_exponents,    ///< components of unrelated size
   equal_cones,        ///< L = M = S
-  enormous,           ///< 1e36 to the largest float, and 2^120, from which on pixels pass as they are, to a few ulp
   count
 };
 inline constexpr int regime_count = static_cast<int>(Regime::count);
