@@ -6,6 +6,7 @@
 
 #include "cli/display_options.h"
 #include "cli/icc_options.h"
+#include "cli/non_finite_report.h"
 #include "cli/program.h"
 #include "cli/recipe.h"
 #include "cli/run_frames.h"
@@ -16,7 +17,6 @@
 #include "cli/way_keeper.h"
 #include "image/acuity_rows.h"
 #include "image/apply_image.h"
-#include "image/non_finite.h"
 
 namespace scotopic {
 namespace {
@@ -95,16 +95,6 @@ void describe_layout(const PixelSource& source, const ColourConfig& config, cons
 NonFinite non_finite_policy(const std::string& text) {
   return choice<NonFinite>("--nonfinite", text,
                            {{"keep", NonFinite::keep}, {"clean", NonFinite::clean}, {"error", NonFinite::error}});
-}
-
-/// Says once what was done with pixels that are no light; their number.
-std::uint64_t report_non_finite(const NonFiniteWatch& watch, NonFinite policy, PixelSource& source,
-                                const ImageLayout& layout, const ColourConfig& config, const Console& console) {
-  if (watch.count() == 0) return 0;
-  const NonFinitePixels pixels = find_non_finite(source, layout, config);
-  console.note(fmt::format("{}: {}; {}", source.file(), describe(pixels),
-                           policy == NonFinite::clean ? "cleaned" : "passed as they are (--nonfinite)"));
-  return pixels.count;
 }
 
 /// Whether pixels bring signals of their own beside RGB.
@@ -223,10 +213,12 @@ nlohmann::ordered_json ApplyJob::run(const FrameTask& task, const Console& conso
   if (display.filter) filters.push_back(display.filter.get());
   stamps.insert(stamps.end(), display.stamps.begin(), display.stamps.end());
   set_stamps(layout, stamps);
-  apply_image(source, layout, settings_.config, apply, file, task.progress, filters);
+  const std::uint64_t unseen = apply_image(source, layout, settings_.config, apply, file, task.progress, filters);
   nlohmann::ordered_json result = result_of(task.paths, frame.numbers, layout, stamps, source);
   result["effects"] = plan_json(frame.plan);
-  result["nonFinite"] = report_non_finite(watch, non_finite_, source, layout, settings_.config, console);
+  result["nonFinite"] = report_non_finite(
+      unseen + watch.count(), non_finite_ == NonFinite::clean ? "cleaned" : "passed on without the operator (--nonfinite)", source,
+      layout, settings_.config, console);
   if (!way.report.is_null()) result["ways"] = way.report;
   if (!display.report.is_null()) result["display"] = display.report;
   return result;

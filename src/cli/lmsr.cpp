@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "cli/image_options.h"
+#include "cli/non_finite_report.h"
 #include "cli/program.h"
 #include "cli/recipe.h"
 #include "cli/run_frames.h"
@@ -136,12 +137,14 @@ nlohmann::ordered_json LmsrJob::run(const FrameTask& task, const Console& consol
                               unit.source, rods)
                 : fmt::format("{}: cd/m2 of signal 1 {}; rods {}", source->file(), unit.source, rods));
   set_stamps(layout, stamps_of(unit, rods, task.recipe));
-  write_lmsr(*source, layout, config_, rods_, file, task.progress);
+  const std::uint64_t non_finite = write_lmsr(*source, layout, config_, rods_, file, task.progress);
 
   nlohmann::ordered_json result = {{"input", paths.input}, {"output", paths.output}};
   result["lmsrUnit"] = unit.cdm2 ? nlohmann::ordered_json(*unit.cdm2) : nlohmann::ordered_json(nullptr);
   result["lmsrUnitSource"] = unit.source;
   result["rods"] = rods;
+  result["nonFinite"] =
+      report_non_finite(non_finite, "so are their signals", *source, layout, config_, console);
   result["spectral"] = spectral_report(*source);
   return result;
 }

@@ -4,6 +4,7 @@
 #include <OpenImageIO/thread.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <deque>
 #include <mutex>
@@ -11,6 +12,7 @@
 
 #include "image/acuity_rows.h"
 #include "image/copy_pixels.h"
+#include "image/non_finite.h"
 #include "image/row_bands.h"
 
 namespace scotopic {
@@ -74,6 +76,9 @@ class PictureRun {
     });
     pass_on(filters, 0, use);
   }
+
+  /// Pixels with a component that is not finite that no operator has seen.
+  std::uint64_t unseen_non_finite() const noexcept { return unseen_non_finite_; }
 
   bool has_alpha() const { return light_.channels.alpha.has_value(); }
 
@@ -141,16 +146,24 @@ class PictureRun {
   bool copies() const { return !apply_ && writer_.keep_untouched && !reader_.receptors(); }
 
   void copy_row(const Band& in, int row, LightRow& room, const Band& out) const {
-    const bool grey = light_.channels.kind == ColourChannels::Kind::grey;
-    for (std::size_t c = 0; c < 3; ++c)
-      copy_other(in.channels[light_.channels.index[grey ? 0 : c]].row(row), out.channels[c].row(row), room.r);
+    bool finite = true;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const NativeRow from = colour_row(in, row, c);
+      copy_other(from, out.channels[c].row(row), room.r);
+      finite = finite && !any_non_finite(from, room.r.size());
+    }
     copy_others(in, row, room, out);
+    if (finite) return;
+    reader_.read(in, row, room);
+    unseen_non_finite_ += count_non_finite(room.pixels(false));
   }
 
   void see_row(const Band& in, int row, LightRow& light) const {
     reader_.read(in, row, light);
-    if (apply_) apply_(light.pixels(reader_.receptors()), light.touched.data());
-    else std::fill(light.touched.begin(), light.touched.end(), std::uint8_t{0});
+    const PixelRows pixels = light.pixels(reader_.receptors());
+    if (apply_) return apply_(pixels, light.touched.data());
+    std::fill(light.touched.begin(), light.touched.end(), std::uint8_t{0});
+    unseen_non_finite_ += count_non_finite(pixels);
   }
 
   void write_row(const Band& in, int row, LightRow& light, const Band& out) const {
@@ -159,14 +172,16 @@ class PictureRun {
     if (reader_.receptors()) {
       writer_.write(light, targets, nullptr);
     } else {
-      const bool grey = light_.channels.kind == ColourChannels::Kind::grey;
-      const auto source_row = [&](std::size_t c) {
-        return in.channels[light_.channels.index[grey ? 0 : c]].row(row);
-      };
-      const NativeRow sources[3] = {source_row(0), source_row(1), source_row(2)};
+      const NativeRow sources[3] = {colour_row(in, row, 0), colour_row(in, row, 1), colour_row(in, row, 2)};
       writer_.write(light, targets, &sources);
     }
     copy_others(in, row, light, out);
+  }
+
+  /// R, G or B of the file, or its grey.
+  NativeRow colour_row(const Band& in, int row, std::size_t c) const {
+    const bool grey = light_.channels.kind == ColourChannels::Kind::grey;
+    return in.channels[light_.channels.index[grey ? 0 : c]].row(row);
   }
 
   void copy_others(const Band& in, int row, LightRow& room, const Band& out) const {
@@ -205,6 +220,7 @@ class PictureRun {
   LightReader reader_;
   LightWriter writer_;
   std::vector<std::size_t> others_;  // channel of the source for each output channel after R, G, B
+  mutable std::atomic<std::uint64_t> unseen_non_finite_{0};
 };
 
 /// What both windows hold; empty where they do not meet.
@@ -317,12 +333,13 @@ LuminanceHistogram measure_base(PixelSource& source, const ImageLayout& layout, 
   return all;
 }
 
-void apply_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-                 const RowOperator& apply, OutputFile& file, const Progress& progress,
-                 const SpatialFilters& filters) {
+std::uint64_t apply_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+                          const RowOperator& apply, OutputFile& file, const Progress& progress,
+                          const SpatialFilters& filters) {
   const std::unique_ptr<PixelSink> sink = open_sink(layout.format, file, source, layout.outputs);
   const std::int64_t total = rows_to_write(layout);
   std::int64_t done = 0;
+  std::uint64_t unseen_non_finite = 0;
   Band in;
   Band out;
   for (std::size_t i = 0; i < layout.outputs.size(); ++i) {
@@ -350,10 +367,12 @@ void apply_image(PixelSource& source, const ImageLayout& layout, const ColourCon
         write(out);
       }
     });
+    unseen_non_finite += run.unseen_non_finite();
   }
   sink->finish();
   source.require_unchanged();
   file.commit();
+  return unseen_non_finite;
 }
 
 }  // namespace scotopic

@@ -12,6 +12,7 @@
 // grey as grey alone.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -89,10 +90,10 @@ LuminanceHistogram measure_base(PixelSource& source, const ImageLayout& layout, 
 
 /// Writes the whole output. Without `apply` (empty) nothing is called for: where nothing else changes values either,
 /// the file's own bytes go through. `filters` are applied last, to each picture by itself. Same bytes for any number of
-/// threads.
-void apply_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-                 const RowOperator& apply, OutputFile& file, const Progress& progress = nullptr,
-                 const SpatialFilters& filters = {});
+/// threads. Returns how many pixels with a component that is not finite went through without `apply`.
+std::uint64_t apply_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+                          const RowOperator& apply, OutputFile& file, const Progress& progress = nullptr,
+                          const SpatialFilters& filters = {});
 
 /// Threads for rows and for OpenEXR's chunks; 0: one for each processor.
 void set_threads(int count);

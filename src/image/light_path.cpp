@@ -1,6 +1,7 @@
 #include "image/light_path.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "image/copy_pixels.h"
@@ -69,21 +70,24 @@ void LightReader::read(const Band& band, int row, LightRow& out) const {
     };
     std::vector<float>* const targets[4] = {&out.cone_l, &out.cone_m, &out.cone_s, &out.rod};
     for (std::size_t s = 0; s < 4; ++s) std::copy_n(plane(s), width, targets[s]->data());
-    for (std::size_t i = 0; i < width; ++i) set_rgb_from_xyz({plane(4)[i], plane(5)[i], plane(6)[i]}, i, out);
+    const bool xyz = !band.signals[4].empty();  // lmsr does without
+    for (std::size_t i = 0; i < width; ++i)
+      set_rgb_from_xyz(xyz ? Vec3<double>{plane(4)[i], plane(5)[i], plane(6)[i]}
+                           : xyz_from_lms_ * Vec3<double>{out.cone_l[i], out.cone_m[i], out.cone_s[i]}, i, out);
   }
   to_working_.apply(out.r.data(), out.g.data(), out.b.data(), width);
 }
 
 namespace {
 
-/// What comes between the operator's result and the file's values.
+/// What comes between the operator's result and the file's values. Colour beside an alpha that is no number stays colour.
 void convert(const LightWriter& to, LightRow& light) {
   const std::size_t width = light.r.size();
   std::vector<float>* const planes[3] = {&light.r, &light.g, &light.b};
   if (to.alpha == AlphaChange::unassociate) {
     for (std::vector<float>* plane : planes)
       for (std::size_t i = 0; i < width; ++i)
-        if (light.alpha[i] > 0) (*plane)[i] /= light.alpha[i];
+        if (light.alpha[i] > 0 && std::isfinite(light.alpha[i])) (*plane)[i] /= light.alpha[i];
   }
   if (to.gain != 1)
     for (std::vector<float>* plane : planes)
@@ -91,7 +95,8 @@ void convert(const LightWriter& to, LightRow& light) {
   to.from_working.apply(light.r.data(), light.g.data(), light.b.data(), width);
   if (to.alpha == AlphaChange::associate)
     for (std::vector<float>* plane : planes)
-      for (std::size_t i = 0; i < width; ++i) (*plane)[i] *= light.alpha[i];
+      for (std::size_t i = 0; i < width; ++i)
+        if (std::isfinite(light.alpha[i])) (*plane)[i] *= light.alpha[i];
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 #include "image/lmsr_image.h"
 
 #include <array>
+#include <atomic>
 #include <cstring>
 
 #include "image/error.h"
+#include "image/non_finite.h"
 #include "image/row_bands.h"
 #include "receptors/receptor_space.h"
 
@@ -45,15 +47,26 @@ class ReceptorRun {
     });
   }
 
+  /// Pixels of the source that are not.
+  std::uint64_t non_finite() const noexcept { return non_finite_; }
+
  private:
   void run_row(const Band& in, int row, LightRow& light, Band& out) const {
     const auto width = static_cast<std::size_t>(in.width);
     if (light_.channels.kind == ColourChannels::Kind::computed) {
-      for (std::size_t s = 0; s < receptor_names.size(); ++s)
-        store_row(in.signals[s].data() + width * static_cast<std::size_t>(row), width,
-                  out.channels[s].row(row));
+      bool finite = true;
+      for (std::size_t s = 0; s < receptor_names.size(); ++s) {
+        const float* signals = in.signals[s].data() + width * static_cast<std::size_t>(row);
+        store_row(signals, width, out.channels[s].row(row));
+        finite = finite && !any_non_finite(signals, width);
+      }
+      if (!finite) {
+        reader_.read(in, row, light);
+        non_finite_ += count_non_finite(light.pixels(true));
+      }
     } else {
       reader_.read(in, row, light);
+      non_finite_ += count_non_finite(light.pixels(reader_.receptors()));
       if (!reader_.receptors()) see(light);
       const std::vector<float>* planes[] = {&light.cone_l, &light.cone_m, &light.cone_s, &light.rod};
       for (std::size_t s = 0; s < receptor_names.size(); ++s)
@@ -97,6 +110,7 @@ class ReceptorRun {
   Matrix3<double> xyz_from_rgb_;
   RodChoice rods_;
   std::vector<std::pair<std::size_t, std::size_t>> others_;  // output channel, source channel
+  mutable std::atomic<std::uint64_t> non_finite_{0};
 };
 
 }  // namespace
@@ -120,11 +134,12 @@ void make_lmsr_layout(ImageLayout& layout, const std::string& output) {
   }
 }
 
-void write_lmsr(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-                const RodChoice& rods, OutputFile& file, const Progress& progress) {
+std::uint64_t write_lmsr(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+                         const RodChoice& rods, OutputFile& file, const Progress& progress) {
   const std::unique_ptr<PixelSink> sink = open_sink(layout.format, file, source, layout.outputs);
   const std::int64_t total = rows_to_write(layout);
   std::int64_t done = 0;
+  std::uint64_t non_finite = 0;
   Band in;
   Band out;
   for (std::size_t i = 0; i < layout.outputs.size(); ++i) {
@@ -141,10 +156,12 @@ void write_lmsr(PixelSource& source, const ImageLayout& layout, const ColourConf
       done += rows;
       if (progress) progress(done, total);
     });
+    non_finite += run.non_finite();
   }
   sink->finish();
   source.require_unchanged();
   file.commit();
+  return non_finite;
 }
 
 }  // namespace scotopic

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -19,19 +18,11 @@ bool finite_signals(const PixelRows& rows, std::size_t i) {
   return fine(rows.cone_l) && fine(rows.cone_m) && fine(rows.cone_s) && fine(rows.rod);
 }
 
-/// Whether any of them is: one pass without branches.
-bool any_non_finite(const float* values, std::size_t count) {
-  std::uint32_t any = 0;
-  for (std::size_t i = 0; i < count; ++i)
-    any |= (std::bit_cast<std::uint32_t>(values[i]) & 0x7f800000u) == 0x7f800000u;
-  return any != 0;
-}
-
 bool any_non_finite(const PixelRows& rows) {
   for (const float* plane :
        {static_cast<const float*>(rows.r), static_cast<const float*>(rows.g), static_cast<const float*>(rows.b),
         rows.cone_l, rows.cone_m, rows.cone_s, rows.rod})
-    if (plane && any_non_finite(plane, rows.count)) return true;
+    if (plane && scotopic::any_non_finite(plane, rows.count)) return true;
   return false;
 }
 
@@ -64,6 +55,13 @@ RowOperator NonFiniteWatch::watched(RowOperator apply) const {
     if (clean)
       for (const std::size_t i : bad) touched[i] = 1;
   };
+}
+
+std::uint64_t count_non_finite(const PixelRows& rows) {
+  std::uint64_t count = 0;
+  if (any_non_finite(rows))
+    for (std::size_t i = 0; i < rows.count; ++i) count += !finite_pixel(rows, i);
+  return count;
 }
 
 NonFinitePixels find_non_finite(PixelSource& source, const ImageLayout& layout, const ColourConfig& config) {

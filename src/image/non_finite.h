@@ -21,7 +21,7 @@ class NonFiniteWatch {
   explicit NonFiniteWatch(NonFinite policy) : policy_(policy), count_(std::make_shared<std::atomic<std::uint64_t>>(0)) {}
 
   /// `apply`, watched; stays valid after the watch is gone. Empty, where there is nothing to apply and nothing to clean:
-  /// then the file's bytes may go through, and nothing is counted.
+  /// then the file's bytes may go through, and apply_image counts.
   RowOperator watched(RowOperator apply) const;
 
   /// Pixels seen since.
@@ -31,6 +31,9 @@ class NonFiniteWatch {
   NonFinite policy_;
   std::shared_ptr<std::atomic<std::uint64_t>> count_;
 };
+
+/// Pixels with a component, of light or receptors, that is not finite.
+std::uint64_t count_non_finite(const PixelRows& rows);
 
 /// Of all light at full resolution. x, y: of the first such pixel, in the coordinates of its picture's data window.
 struct NonFinitePixels {

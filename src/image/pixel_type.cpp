@@ -3,6 +3,7 @@
 #include <Imath/half.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -60,6 +61,21 @@ T* elements(const NativeRow& row) {
   return reinterpret_cast<T*>(row.data);
 }
 
+/// Whether all bits of `exponent` are set in any value: passes without branches, in vectors where values lie together.
+template <typename Bits>
+bool any_has(Bits exponent, const NativeRow& row, std::size_t count) {
+  Bits any = 0;
+  const auto see = [&](Bits value) { any = static_cast<Bits>(any | static_cast<Bits>((value & exponent) == exponent)); };
+  if (packed(row)) {
+    const Bits* values = elements<const Bits>(row);
+    for (std::size_t i = 0; i < count; ++i) see(values[i]);
+  } else {
+    const std::byte* at = row.data;
+    for (std::size_t i = 0; i < count; ++i, at += row.stride) see(load<Bits>(at));
+  }
+  return any != 0;
+}
+
 }  // namespace
 
 std::size_t size_of(PixelType type) {
@@ -90,6 +106,17 @@ std::string_view name_of(PixelType type) {
       return "float";
   }
   return "";
+}
+
+bool any_non_finite(const NativeRow& row, std::size_t count) {
+  if (row.type == PixelType::half) return any_has<std::uint16_t>(0x7c00, row, count);
+  return row.type == PixelType::float32 && any_has<std::uint32_t>(0x7f800000, row, count);
+}
+
+bool any_non_finite(const float* values, std::size_t count) {
+  std::uint32_t any = 0;
+  for (std::size_t i = 0; i < count; ++i) any |= (std::bit_cast<std::uint32_t>(values[i]) & 0x7f800000u) == 0x7f800000u;
+  return any != 0;
 }
 
 void load_row(const NativeRow& row, std::size_t count, float* out) {

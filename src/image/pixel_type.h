@@ -28,6 +28,10 @@ struct NativeRow {
 /// 0..1.
 void load_row(const NativeRow& row, std::size_t count, float* out);
 
+/// Whether any value is NaN or infinite; never one of an integer type.
+bool any_non_finite(const NativeRow& row, std::size_t count);
+bool any_non_finite(const float* values, std::size_t count);
+
 /// A row from floats, rounded to nearest (ties to even). Integers: clamped to 0..1, NaN is 0. Half: finite
 /// values beyond its range become its largest, so that no Inf is made; NaN and Inf stay.
 void store_row(const float* values, std::size_t count, const NativeRow& row);

@@ -27,7 +27,8 @@ colorspaces:
     to_scene_reference: !<ExponentWithLinearTransform> {gamma: 2.4, offset: 0.055}
 )"),
           bytes_of("ocio_profile_version: 1\nroles: {scene_linear: a}\ndisplays: {d: [!<View> {name: v, colorspace: a}]}\n"
-                   "colorspaces: [!<ColorSpace> {name: a, isdata: true}]\n")};
+                   "colorspaces: [!<ColorSpace> {name: a, isdata: true}]\n"),
+          shipped("ocio_config/config.ocio")};
 }
 
 }  // namespace scotopic::fuzz

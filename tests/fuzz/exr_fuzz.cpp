@@ -2,12 +2,13 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfOutputPart.h>
+#include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/ImfTiledOutputFile.h>
-
-#include <iterator>
 
 #include "fuzz/target.h"
 #include "image/error.h"
@@ -40,8 +41,34 @@ Bytes file_of(const std::vector<std::string>& channels, Imf::Compression compres
     file.setFrameBuffer(frame);
     file.writePixels(height);
   }
-  std::ifstream file(path, std::ios::binary);
-  return Bytes(std::istreambuf_iterator<char>(file), {});
+  return file_bytes(path);
+}
+
+/// Two parts of scanlines: colour, and depth in a smaller window.
+Bytes parts() {
+  std::vector<Imf::Header> headers(2, Imf::Header(width, height));
+  headers[1].dataWindow() = Imath::Box2i({1, 2}, {4, 5});
+  std::vector<std::vector<std::string>> channels = {{"R", "G", "B"}, {"Z"}};
+  std::vector<char> pixels(static_cast<std::size_t>(width * height) * 4, 0x35);
+  for (std::size_t p = 0; p < headers.size(); ++p) {
+    headers[p].setName(p == 0 ? "colour" : "depth");
+    headers[p].setType(Imf::SCANLINEIMAGE);
+    for (const auto& name : channels[p]) headers[p].channels().insert(name, Imf::Channel(Imf::FLOAT));
+  }
+  const std::string path = (scratch() / "seed.exr").string();
+  {
+    Imf::MultiPartOutputFile file(path.c_str(), headers.data(), 2);
+    for (int p = 0; p < 2; ++p) {
+      const Imath::Box2i& window = headers[static_cast<std::size_t>(p)].dataWindow();
+      Imf::FrameBuffer frame;
+      for (const auto& name : channels[static_cast<std::size_t>(p)])
+        frame.insert(name, Imf::Slice::Make(Imf::FLOAT, pixels.data(), window));
+      Imf::OutputPart part(file, p);
+      part.setFrameBuffer(frame);
+      part.writePixels(window.max.y - window.min.y + 1);
+    }
+  }
+  return file_bytes(path);
 }
 
 Limits small() {
@@ -77,7 +104,7 @@ std::vector<Bytes> seeds() {
           file_of(rgb, Imf::PIZ_COMPRESSION, Imf::HALF, true),  file_of(rgb, Imf::RLE_COMPRESSION, Imf::UINT, true),
           file_of(bands, Imf::ZIPS_COMPRESSION, Imf::FLOAT, false), file_of(bands, Imf::DWAA_COMPRESSION, Imf::HALF, false),
           file_of({"L", "M", "S", "R"}, Imf::B44_COMPRESSION, Imf::HALF, false),
-          file_of({"Y"}, Imf::PXR24_COMPRESSION, Imf::FLOAT, false)};
+          file_of({"Y"}, Imf::PXR24_COMPRESSION, Imf::FLOAT, false), parts()};
 }
 
 }  // namespace scotopic::fuzz

@@ -61,16 +61,11 @@ void mutate_once(Bytes& b, const std::vector<Bytes>& seeds, Random& random) {
   }
 }
 
-Bytes read(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return Bytes(std::istreambuf_iterator<char>(file), {});
-}
-
 void run(const Bytes& b) { LLVMFuzzerTestOneInput(b.data(), b.size()); }
 
 std::size_t replay(const std::filesystem::path& path) {
   if (!std::filesystem::is_directory(path)) {
-    run(read(path));
+    run(scotopic::fuzz::file_bytes(path));
     return 1;
   }
   std::vector<std::filesystem::path> files;
@@ -79,7 +74,7 @@ std::size_t replay(const std::filesystem::path& path) {
   for (const auto& file : files) {
     std::printf("%s\n", file.c_str());
     std::fflush(stdout);
-    run(read(file));
+    run(scotopic::fuzz::file_bytes(file));
   }
   return files.size();
 }
@@ -104,6 +99,9 @@ int main(int argc, char** argv) {
             .write(reinterpret_cast<const char*>(seeds[k].data()), static_cast<std::streamsize>(seeds[k].size()));
     } else if (std::filesystem::exists(argv[i])) {
       replayed += replay(argv[i]);
+    } else {
+      std::fprintf(stderr, "%s: no such file or folder\n", argv[i]);
+      return 2;
     }
   }
   for (const Bytes& seed : seeds) run(seed);

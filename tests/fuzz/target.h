@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <stdexcept>
 #include <string>
 #include <unistd.h>
 #include <vector>
@@ -20,6 +22,18 @@ using Bytes = std::vector<std::uint8_t>;
 std::vector<Bytes> seeds();
 
 inline Bytes bytes_of(const std::string& text) { return Bytes(text.begin(), text.end()); }
+
+inline Bytes file_bytes(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return Bytes(std::istreambuf_iterator<char>(file), {});
+}
+
+/// A file that the project ships, by its path in the source.
+inline Bytes shipped(const char* name) {
+  Bytes bytes = file_bytes(std::filesystem::path(SCOTOPIC_SOURCE_DIR) / name);
+  if (bytes.empty()) throw std::runtime_error(std::string(name) + ": a seed, and not there");
+  return bytes;
+}
 
 inline std::string text_of(const std::uint8_t* data, std::size_t size) {
   return std::string(reinterpret_cast<const char*>(data), size);

@@ -30,6 +30,12 @@ class Mp {
     return out;
   }
 
+  static Mp from(long double x) {
+    Mp out;
+    mpfr_set_ld(out.value_, x, MPFR_RNDN);
+    return out;
+  }
+
   explicit operator double() const { return mpfr_get_d(value_, MPFR_RNDN); }
   explicit operator float() const { return mpfr_get_flt(value_, MPFR_RNDN); }
 
@@ -68,6 +74,8 @@ inline Mp sqrt(const Mp& x) { return Mp::of(mpfr_sqrt, x); }
 inline Mp log(const Mp& x) { return Mp::of(mpfr_log, x); }
 inline Mp log2(const Mp& x) { return Mp::of(mpfr_log2, x); }
 inline Mp log10(const Mp& x) { return Mp::of(mpfr_log10, x); }
+inline Mp exp(const Mp& x) { return Mp::of(mpfr_exp, x); }
+inline Mp exp2(const Mp& x) { return Mp::of(mpfr_exp2, x); }
 inline Mp pow(const Mp& x, const Mp& y) { return Mp::of(mpfr_pow, x, y); }
 inline Mp atan(const Mp& x) { return Mp::of(mpfr_atan, x); }
 inline Mp cbrt(const Mp& x) { return Mp::of(mpfr_cbrt, x); }

@@ -26,23 +26,8 @@ Real at_least_0(const Real& x) {
 }
 
 template <typename Real>
-Vec3<Real> widened(const Vec3<double>& v) {
+Triple<Real> widened(const Vec3<double>& v) {
   return {Real(v[0]), Real(v[1]), Real(v[2])};
-}
-
-template <typename Real>
-Vec3<Real> plus(const Vec3<Real>& a, const Vec3<Real>& b) {
-  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-
-template <typename Real>
-Vec3<Real> minus(const Vec3<Real>& a, const Vec3<Real>& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-template <typename Real>
-Vec3<Real> times(const Real& s, const Vec3<Real>& v) {
-  return {s * v[0], s * v[1], s * v[2]};
 }
 
 const std::array<const TabulatedCurve*, 3> cone_curves = {&tables::cones_stockman_sharpe_2000_2deg_l,
@@ -53,9 +38,9 @@ const std::array<const TabulatedCurve*, 3> matching_curves = {
 
 // Sum of products of two sets of curves over whole nanometres.
 template <typename Real, std::size_t N>
-Matrix3<Real> curve_products(const std::array<const TabulatedCurve*, N>& rows,
+Square<Real> curve_products(const std::array<const TabulatedCurve*, N>& rows,
                              const std::array<const TabulatedCurve*, 3>& columns, int first, int last) {
-  Matrix3<Real> out;
+  Square<Real> out;
   for (int nm = first; nm <= last; ++nm)
     for (std::size_t i = 0; i < N; ++i)
       for (std::size_t j = 0; j < 3; ++j)
@@ -74,13 +59,13 @@ Real luminance_units_per_watt() {
 
 // Least squares: matching ~ F cones, by the normal equations.
 template <typename Real>
-Matrix3<Real> matching_from_cones() {
+Square<Real> matching_from_cones() {
   return curve_products<Real>(matching_curves, cone_curves, 390, 830) *
-         inverse(curve_products<Real>(cone_curves, cone_curves, 390, 830));
+         inverted(curve_products<Real>(cone_curves, cone_curves, 390, 830));
 }
 
 template <typename Real>
-Matrix3<Real> inverse_of_opponent_transform() {
+Square<Real> inverse_of_opponent_transform() {
   // A = [[-1,1,0],[-1,-1,1],[1,1,0]]: dL = (lum - rg)/2, dM = (lum + rg)/2, dS = by + lum.
   const Real half = Real(1) / Real(2);
   return {{{{-half, Real(0), half}, {half, Real(0), half}, {Real(0), Real(1), Real(1)}}}};
@@ -88,7 +73,7 @@ Matrix3<Real> inverse_of_opponent_transform() {
 
 // Kirk & O'Brien 2011: rows (red-green, blue-yellow, luminance), columns gL, gM, gS.
 template <typename Real>
-Matrix3<Real> kirk_rows() {
+Square<Real> kirk_rows() {
   const auto d = dec<Real>;
   const Real x = d("15"), y = d("15"), z = d("5"), k1 = d("0.25");
   const Real rho1 = d("1.111"), rho2 = d("0.939"), rho3 = d("0.400"), rho4 = d("0.150"), alpha = d("0.619");
@@ -100,19 +85,19 @@ Matrix3<Real> kirk_rows() {
 
 // Filament's Cao-consistent variant.
 template <typename Real>
-Matrix3<Real> filament_rows() {
+Square<Real> filament_rows() {
   const auto d = dec<Real>;
   const Real big_k = d("45"), big_s = d("10"), k3 = d("0.6"), rw = d("0.139"), p = d("0.6189");
   const Real one = Real(1);
-  const Matrix3<Real> pathways{{{{-(k3 + rw), one + k3 * rw, Real(0)},
+  const Square<Real> pathways{{{{-(k3 + rw), one + k3 * rw, Real(0)},
                                  {p * k3, (one - p) * k3, one},
                                  {p * big_s, (one - p) * big_s, Real(0)}}}};
-  const Vec3<Real> inputs = {d("0.2") / d("0.63721"), d("0.2") / d("0.39242"), d("0.3") / d("1.6064")};
-  return (big_k / big_s) * (pathways * diagonal(inputs));
+  const Triple<Real> inputs = {d("0.2") / d("0.63721"), d("0.2") / d("0.39242"), d("0.3") / d("1.6064")};
+  return (big_k / big_s) * (pathways * diagonal_of(inputs));
 }
 
 template <typename Real>
-Matrix3<Real> cat02() {
+Square<Real> cat02() {
   const auto d = dec<Real>;
   return {{{{d("0.7328"), d("0.4296"), d("-0.1624")},
             {d("-0.7036"), d("1.6975"), d("0.0061")},
@@ -121,7 +106,7 @@ Matrix3<Real> cat02() {
 
 // Scotopic luminance from D65-adapted XYZ under an illuminant of the given S/P ratio.
 template <typename Real>
-Real scotopic_luminance(const Vec3<Real>& xyz, RodEstimate estimate, const Real& sp) {
+Real scotopic_luminance(const Triple<Real>& xyz, RodEstimate estimate, const Real& sp) {
   const auto d = dec<Real>;
   Real under_d65(0);
   if (estimate == RodEstimate::linear) {
@@ -218,70 +203,75 @@ template <typename Real>
 ExactSetting<Real>::ExactSetting(const AppearanceParameters& p) : parameters(p) {
   const auto d = dec<Real>;
   static const Real k = luminance_units_per_watt<Real>();
-  static const Matrix3<Real> fit = matching_from_cones<Real>();
+  static const Square<Real> fit = matching_from_cones<Real>();
   units_per_watt = k;
   const auto wide = [](const Matrix3<double>& m) {
-    return Matrix3<Real>{{{widened<Real>(m[0]), widened<Real>(m[1]), widened<Real>(m[2])}}};
+    return Square<Real>{{{widened<Real>(m[0]), widened<Real>(m[1]), widened<Real>(m[2])}}};
   };
-  const Matrix3<Real> xyz_from_lms = Real(d("683.002") / k) * fit, lms_from_xyz = inverse(xyz_from_lms);
+  const Square<Real> xyz_from_lms = Real(d("683.002") / k) * fit, lms_from_xyz = inverted(xyz_from_lms);
   xyz_from_rgb = wide(p.xyz_from_rgb);
-  const Matrix3<Real> rgb_from_xyz = inverse(xyz_from_rgb);
+  const Square<Real> rgb_from_xyz = inverted(xyz_from_rgb);
   lms_from_rgb = lms_from_xyz * xyz_from_rgb;
   rgb_from_lms = rgb_from_xyz * xyz_from_lms;
-  rgb_from_lms_safko = rgb_from_xyz * (Real(d("683.002") / k) * inverse(cat02<Real>()));
-  const Matrix3<Real> xyz_from_gamut = wide(p.xyz_from_gamut.value_or(p.xyz_from_rgb));
-  gamut_from_rgb = inverse(xyz_from_gamut) * xyz_from_rgb;
+  rgb_from_lms_safko = rgb_from_xyz * (Real(d("683.002") / k) * inverted(cat02<Real>()));
+  const Square<Real> xyz_from_gamut = wide(p.xyz_from_gamut.value_or(p.xyz_from_rgb));
+  gamut_from_rgb = inverted(xyz_from_gamut) * xyz_from_rgb;
   rgb_from_gamut = rgb_from_xyz * xyz_from_gamut;
   lms_from_gamut = lms_from_xyz * xyz_from_gamut;
   const bool filament = p.model == Model::filament2021;
-  kappa = filament ? Vec3<Real>{d("0.2"), d("0.2"), d("0.3")} : Vec3<Real>{d("0.25"), d("0.25"), d("0.4")};
+  kappa = filament ? Triple<Real>{d("0.2"), d("0.2"), d("0.3")} : Triple<Real>{d("0.25"), d("0.25"), d("0.4")};
   const Real g = d("0.33");
-  gain = filament ? Vec3<Real>{g / d("0.63721"), g / d("0.39242"), g / d("1.6064")} : Vec3<Real>{g, g, g};
+  gain = filament ? Triple<Real>{g / d("0.63721"), g / d("0.39242"), g / d("1.6064")} : Triple<Real>{g, g, g};
   cone_shift = inverse_of_opponent_transform<Real>() * (filament ? filament_rows<Real>() : kirk_rows<Real>());
   scale = kernel_scale<Real>(p);
-  cone_white = lms_from_rgb * Vec3<Real>{Real(1), Real(1), Real(1)};
+  cone_white = lms_from_rgb * Triple<Real>{Real(1), Real(1), Real(1)};
   // Image white, taken for D65: a grey of the image keeps its luminance to the last digit.
-  const Vec3<Real> white = xyz_from_rgb * Vec3<Real>{Real(1), Real(1), Real(1)};
+  const Triple<Real> white = xyz_from_rgb * Triple<Real>{Real(1), Real(1), Real(1)};
   rod_white = k / d("1700.06") * scotopic_luminance(white, p.rods, d("2.4648"));
 }
 
 template <typename Real>
-Vec3<Real> ExactOperator<Real>::shift(const Vec3<Real>& q, const Real& r) const {
+Triple<Real> ExactOperator<Real>::damped_rods(const Triple<Real>& q, const Real& r) const {
   const Real rods = s_.scale * at_least_0(r);
-  Vec3<Real> signal;
+  Triple<Real> signal;
   for (std::size_t i = 0; i < 3; ++i)
     signal[i] = rods / sqrt(Real(Real(1) + at_least_0(Real(s_.gain[i] * (s_.scale * q[i] + s_.kappa[i] * rods)))));
-  return times(Real(Real(1) / s_.scale), s_.cone_shift * signal);
+  return times(Real(Real(1) / s_.scale), signal);
 }
 
 template <typename Real>
-Vec3<Real> ExactOperator<Real>::nearest(const Vec3<Real>& p, const Vec3<Real>& bound) const {
-  const Vec3<Real> z = minus(p, bound);
+Triple<Real> ExactOperator<Real>::shift(const Triple<Real>& q, const Real& r) const {
+  return s_.cone_shift * damped_rods(q, r);
+}
+
+template <typename Real>
+Triple<Real> ExactOperator<Real>::nearest(const Triple<Real>& p, const Triple<Real>& bound) const {
+  const Triple<Real> z = minus(p, bound);
   if (z[0] >= Real(0) && z[1] >= Real(0) && z[2] >= Real(0)) return p;
-  const Matrix3<Real> gram = transpose(s_.lms_from_gamut) * s_.lms_from_gamut;
-  Vec3<Real> best{Real(0), Real(0), Real(0)};
-  Real least = dot(z, gram * z);  // all three at their bound
+  const Square<Real> gram = transposed(s_.lms_from_gamut) * s_.lms_from_gamut;
+  Triple<Real> best{Real(0), Real(0), Real(0)};
+  Real least = inner(z, gram * z);  // all three at their bound
   for (unsigned set = 1; set < 7; ++set) {
     // Bit i: component i sits at its bound; the free ones solve gram_FF (x - z)_F = gram_FA z_A.
-    Matrix3<Real> free = identity3<Real>();
-    Vec3<Real> right{Real(0), Real(0), Real(0)};
+    Square<Real> free = diagonal_of(Triple<Real>{Real(1), Real(1), Real(1)});
+    Triple<Real> right{Real(0), Real(0), Real(0)};
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) {
         if (set >> i & 1u) continue;
         free[i][j] = (set >> j & 1u) ? Real(0) : gram[i][j];
         right[i] = right[i] + gram[i][j] * z[j];
       }
-    const Vec3<Real> x = inverse(free) * right;
+    const Triple<Real> x = solution(free, right);
     if (x[0] < Real(0) || x[1] < Real(0) || x[2] < Real(0)) continue;
-    const Vec3<Real> gap = minus(x, z);
-    const Real distance = dot(gap, gram * gap);
+    const Triple<Real> gap = minus(x, z);
+    const Real distance = inner(gap, gram * gap);
     if (distance < least) least = distance, best = x;
   }
   return plus(best, bound);
 }
 
 template <typename Real>
-Real ExactOperator<Real>::rod_signal(const Vec3<Real>& rgb) const {
+Real ExactOperator<Real>::rod_signal(const Triple<Real>& rgb) const {
   const Real scotopic =
       scotopic_luminance(s_.xyz_from_rgb * rgb, s_.parameters.rods, Real(s_.parameters.sp_ratio));
   return at_least_0(Real(s_.units_per_watt / dec<Real>("1700.06") * scotopic));
@@ -296,52 +286,70 @@ Real ExactOperator<Real>::policy_luminance(const Real& y, const Real& rod, const
 }
 
 template <typename Real>
-Vec3<Real> ExactOperator<Real>::safko(const Vec3<Real>& q, const Real& r) const {
-  const Real unit(s_.parameters.white_luminance);
-  const Vec3<Real> out = plus(times(unit, q), shift(times(unit, q), Real(unit * r)));
-  return times(Real(Real(1) / unit), s_.rgb_from_lms_safko * out);
+Summed<Real> ExactOperator<Real>::safko(const Summed<Real>& q, const Real& r) const {
+  const Real unit(s_.parameters.white_luminance), per_unit = Real(1) / unit;
+  const Triple<Real> rods = times(per_unit, damped_rods(times(unit, q.value), Real(unit * r)));
+  return {s_.rgb_from_lms_safko * plus(q.value, s_.cone_shift * rods),
+          absolute(s_.rgb_from_lms_safko) * plus(q.terms, absolute(s_.cone_shift) * rods)};
 }
 
 template <typename Real>
-Vec3<Real> ExactOperator<Real>::operator()(const ReferencePixel& pixel) const {
+Summed<Real> ExactOperator<Real>::with_terms(const ReferencePixel& pixel) const {
   const AppearanceParameters& p = s_.parameters;
-  const Vec3<Real> rgb = widened<Real>(pixel.rgb);
-  if (!operable(pixel)) return rgb;
-  const Vec3<Real> q = pixel.cones ? widened<Real>(*pixel.cones) : s_.lms_from_rgb * rgb;
+  const Triple<Real> rgb = widened<Real>(pixel.rgb);
+  Summed<Real> out{rgb, absolute(rgb)};
+  if (!operable(pixel)) return out;
+  Summed<Real> q{s_.lms_from_rgb * rgb, absolute(s_.lms_from_rgb) * out.terms};
+  if (pixel.cones) q.value = widened<Real>(*pixel.cones), q.terms = absolute(q.value);
   const Real rod = pixel.rod ? Real(*pixel.rod) : rod_signal(rgb);
   if (p.model == Model::safko2019) return safko(q, rod);
 
-  const Real unit(p.white_luminance), y = dot(s_.xyz_from_rgb[1], rgb), la(p.adaptation);
+  const Real unit(p.white_luminance), y = inner(s_.xyz_from_rgb[1], rgb), la(p.adaptation);
   const Real local = p.weight == Weight::global ? la : Real(la + unit * at_least_0(y));
-  if (local >= Real(5)) return rgb;
+  if (local >= Real(5)) return out;
   const Real m = exact_mesopic_coefficient(local, dec<Real>("2.4648"));
-  const Real all(p.strength.all), w = Real(p.strength.shift) * all * (Real(1) - m);
+  const Real all(p.strength.all), full = Real(p.strength.shift) * all, w = full * (Real(1) - m);
 
-  Vec3<Real> out = rgb;
   if (w > Real(0)) {
-    const Vec3<Real> dq = times(w, shift(times(unit, q), Real(unit * rod)));
-    out = plus(out, times(Real(Real(1) / unit), s_.rgb_from_lms * dq));
+    const Triple<Real> rods = times(Real(Real(1) / unit), damped_rods(times(unit, q.value), Real(unit * rod)));
+    out.value = plus(out.value, s_.rgb_from_lms * (s_.cone_shift * times(w, rods)));
+    // Of w = 1 - m: 1, however little is left near 4.998 cd/m2.
+    out.terms = plus(out.terms, absolute(s_.rgb_from_lms) * (absolute(s_.cone_shift) * times(full, rods)));
     if (p.xyz_from_gamut) {
-      Vec3<Real> bound = s_.gamut_from_rgb * rgb;
+      Triple<Real> bound = s_.gamut_from_rgb * rgb;
       for (auto& b : bound) b = b < Real(0) ? b : Real(0);
-      const Vec3<Real> shifted = s_.gamut_from_rgb * out, inside = nearest(shifted, bound);
-      out = plus(out, s_.rgb_from_gamut * minus(inside, shifted));
+      const Triple<Real> shifted = s_.gamut_from_rgb * out.value, inside = nearest(shifted, bound);
+      if (inside != shifted) {
+        // Every component of the nearest colour is made of all that was shifted.
+        Triple<Real> moved = absolute(s_.gamut_from_rgb) * out.terms;
+        for (auto& x : moved) x = std::max({moved[0], moved[1], moved[2]});
+        out.terms = plus(out.terms, absolute(s_.rgb_from_gamut) * moved);
+      }
+      out.value = plus(out.value, s_.rgb_from_gamut * minus(inside, shifted));
     }
   }
   if (p.luminance != LuminancePolicy::none && p.strength.luminance > 0) {
-    const Real from = dot(s_.xyz_from_rgb[1], out), goal = y + all * (policy_luminance(y, at_least_0(rod), m) - y);
+    const Real from = inner(s_.xyz_from_rgb[1], out.value);
+    const Real goal = y + all * (policy_luminance(y, at_least_0(rod), m) - y);
     const Real to = from + Real(p.strength.luminance) * (goal - from);
     Real largest(0);
-    for (const Vec3<Real>& cones : {s_.lms_from_rgb * rgb, s_.lms_from_rgb * out})
+    for (const Triple<Real>& cones : {s_.lms_from_rgb * rgb, s_.lms_from_rgb * out.value})
       for (std::size_t i = 0; i < 3; ++i) {
         const Real relative = abs(Real(cones[i] / s_.cone_white[i]));
         if (relative > largest) largest = relative;
       }
-    out = times(regularised_ratio(from, to, largest), out);
+    const Real ratio = regularised_ratio(from, to, largest), size = abs(from);
+    out.value = times(ratio, out.value);
+    out.terms = times(size * Real(64) < largest ? Real(ratio + Real(1)) : ratio, out.terms);
   }
-  const Real kept = Real(1) - Real(p.strength.chroma) * all * (Real(1) - exact_chroma_factor(local));
-  const Real grey = dot(s_.xyz_from_rgb[1], out);
-  for (auto& x : out) x = grey + kept * (x - grey);
+  const Real faded = Real(p.strength.chroma) * all * (Real(1) - exact_chroma_factor(local));
+  const Triple<Real>& weights = s_.xyz_from_rgb[1];
+  const Real grey = inner(weights, out.value), grey_terms = inner(absolute(weights), out.terms);
+  if (!(faded > Real(0))) return out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    out.value[i] = grey + (Real(1) - faded) * (out.value[i] - grey);
+    out.terms[i] = grey_terms + (Real(1) - faded) * out.terms[i];
+  }
   return out;
 }
 

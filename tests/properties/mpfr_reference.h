@@ -1,10 +1,13 @@
-// The appearance operator a second time, written from the published formulas and the contracts in the headers,
-// without the product's code: in 256 bits to judge double, and in long double where millions of pixels are judged.
+// The appearance operator a second time, written from the formulas of docs/model.md and the papers it names, with
+// an algebra of its own: in 256 bits to judge double, and in long double where millions of pixels are judged.
+// Shared with the product: the types a pixel and a setting come in, and the measured curves, which
+// tests/receptors/tables_test.cpp holds to their publications.
 #pragma once
 
 #include <array>
 
 #include "appearance/reference.h"
+#include "properties/exact_algebra.h"
 #include "properties/mpfr_number.h"
 
 namespace scotopic::test {
@@ -28,13 +31,20 @@ struct ExactSetting {
 
   AppearanceParameters parameters;
   Real units_per_watt;            // k
-  Matrix3<Real> lms_from_rgb, rgb_from_lms, gamut_from_rgb, rgb_from_gamut, lms_from_gamut, rgb_from_lms_safko;
-  Matrix3<Real> xyz_from_rgb;
-  Matrix3<Real> cone_shift;       // A^-1 N
-  Vec3<Real> kappa, gain;
-  Vec3<Real> cone_white;          // q of image white
+  Square<Real> lms_from_rgb, rgb_from_lms, gamut_from_rgb, rgb_from_gamut, lms_from_gamut, rgb_from_lms_safko;
+  Square<Real> xyz_from_rgb;
+  Square<Real> cone_shift;       // A^-1 N
+  Triple<Real> kappa, gain;
+  Triple<Real> cone_white;          // q of image white
   Real scale;                     // T
   Real rod_white;
+};
+
+/// A result, and beside each component the sum of |terms| of the linear combinations it is made of, stage after stage:
+/// what its own rounding errors are measured by.
+template <typename Real>
+struct Summed {
+  Triple<Real> value, terms;
 };
 
 /// What the operator gives in exact arithmetic, to 2^-240 (Mp) or 2^-60 (long double) of the pixel's size.
@@ -44,20 +54,22 @@ class ExactOperator {
  public:
   explicit ExactOperator(const AppearanceParameters& parameters) : s_(parameters) {}
 
-  Vec3<Real> operator()(const ReferencePixel& pixel) const;
+  Triple<Real> operator()(const ReferencePixel& pixel) const { return with_terms(pixel).value; }
+  Summed<Real> with_terms(const ReferencePixel& pixel) const;
 
   /// Δq in luminance units, for q, r in luminance units of 1 cd/m2.
-  Vec3<Real> shift(const Vec3<Real>& q, const Real& r) const;
+  Triple<Real> shift(const Triple<Real>& q, const Real& r) const;
 
   /// The nearest colour, in LMS, with gamut components not below `bound` (which is <= 0).
-  Vec3<Real> nearest(const Vec3<Real>& gamut_rgb, const Vec3<Real>& bound) const;
+  Triple<Real> nearest(const Triple<Real>& gamut_rgb, const Triple<Real>& bound) const;
 
   const ExactSetting<Real>& setting() const { return s_; }
 
  private:
   Real policy_luminance(const Real& y, const Real& rod, const Real& m) const;
-  Real rod_signal(const Vec3<Real>& rgb) const;
-  Vec3<Real> safko(const Vec3<Real>& q, const Real& r) const;
+  Real rod_signal(const Triple<Real>& rgb) const;
+  Triple<Real> damped_rods(const Triple<Real>& q, const Real& r) const;  // g R/T
+  Summed<Real> safko(const Summed<Real>& q, const Real& r) const;
 
   ExactSetting<Real> s_;
 };
