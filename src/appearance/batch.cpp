@@ -36,14 +36,15 @@ std::uint64_t lane_bits(D d, hn::Mask<D> mask) {
   return bits;
 }
 
-// Computes in double the pixels at `at` that `bits` names; `lanes` pixels may be read.
+// Computes in double the pixels at `at` that `bits` names, and says which of them were active; `lanes` pixels may be read.
 template <class Rows>
-void apply_exactly(const WideConstants<double>& exact, const Rows& rows, std::size_t at, std::size_t lanes,
+std::uint64_t apply_exactly(const WideConstants<double>& exact, const Rows& rows, std::size_t at, std::size_t lanes,
                    std::uint64_t bits) {
   using D = Tag<double>;
   const D d;
   const PixelOperator<D> op(d, exact);
   Results<Element<Rows>> out;
+  std::uint64_t active = 0;
   for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
     auto alpha = hn::Zero(hn::Rebind<Element<Rows>, D>());
     const auto p = load_pixels<Receptors::maybe>(d, rows, at + i, alpha);
@@ -53,16 +54,20 @@ void apply_exactly(const WideConstants<double>& exact, const Rows& rows, std::si
     const std::uint64_t here = bits >> i & lane_bits(d, seen.active);
     for (std::size_t k = 0; k < hn::Lanes(d); ++k)
       if (here >> k & 1u) out.copy(k, rows, at + i + k);
+    active |= here << i;
   }
+  return active;
 }
 
-// Stores the lanes that `active` names, or computes them again where `doubtful`.
+// Stores the lanes that `active` names, or computes them again where `doubtful`; says which were.
 template <class Rows>
-HWY_NOINLINE void store_some(const WideConstants<double>& exact, const Results<Element<Rows>>& out, const Rows& rows,
-                             std::size_t at, std::size_t lanes, std::uint64_t active, std::uint64_t doubtful) {
-  if (doubtful) apply_exactly(exact, rows, at, lanes, doubtful);
+HWY_NOINLINE std::uint64_t store_some(const WideConstants<double>& exact, const Results<Element<Rows>>& out,
+                                      const Rows& rows, std::size_t at, std::size_t lanes, std::uint64_t active,
+                                      std::uint64_t doubtful) {
+  active &= ~doubtful;
   for (std::size_t i = 0; i < lanes; ++i)
-    if ((active & ~doubtful) >> i & 1u) out.copy(i, rows, at + i);
+    if (active >> i & 1u) out.copy(i, rows, at + i);
+  return doubtful ? active | apply_exactly(exact, rows, at, lanes, doubtful) : active;
 }
 
 // Stores the results of one vector of pixels, `p` as they came in. Pixels that are not touched keep their bits.
@@ -72,15 +77,16 @@ HWY_INLINE void store_mixed(D d, const WideConstants<double>& exact, const Pixel
                               ElementVector<D, Element<Rows>> alpha, std::uint8_t* touched) {
   const std::size_t lanes = hn::Lanes(d);
   const std::uint64_t active = lane_bits(d, seen.active), doubtful = lane_bits(d, seen.doubtful);
-  if (touched) mark(touched + at, lanes, active);
-  if (active == 0) return;
-  if constexpr (std::is_same_v<hn::TFromD<D>, Element<Rows>>) {
+  if (active == 0 || (doubtful == 0 && std::is_same_v<hn::TFromD<D>, Element<Rows>>)) {
+    if (touched) mark(touched + at, lanes, active);
     // Nothing is converted on the way out: what is not touched may be stored as it came.
-    if (doubtful == 0) return store_pixels(d, select(seen.active, seen.rgb, p.rgb), rows, at, alpha);
+    if (active != 0) store_pixels(d, select(seen.active, seen.rgb, p.rgb), rows, at, alpha);
+    return;
   }
   Results<Element<Rows>> out;
   out.set(d, seen.rgb);
-  store_some(exact, out, rows, at, lanes, active, doubtful);
+  const std::uint64_t changed = store_some(exact, out, rows, at, lanes, active, doubtful);
+  if (touched) mark(touched + at, lanes, changed);
 }
 
 // One vector of pixels at `at`.

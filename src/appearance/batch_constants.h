@@ -62,12 +62,13 @@ struct BatchConstants {
 
   // Weight.
   T unit, adaptation, scotopic_limit, photopic_limit;
+  T luminance_rounding;                       // of y_row's sum, in cd/m2, per sum of its terms' magnitudes
   T inverse_high, per_octave;                 // v = -log2(L * inverse_high) * per_octave
   std::array<T, mesopic_terms> mesopic;       // (1 - m)/v as a polynomial in v
   std::array<T, log_terms> log_series;        // log2 f = s sum_k log_series[k] s^2k, s = (f-1)/(f+1)
 
   // Receptors and kernel.
-  Vec3<T> y_row, y_magnitude;                 // luminance; its coefficients' magnitudes
+  Vec3<T> y_row;                              // luminance
   Matrix3<T> lms_from_rgb, rgb_from_lms, xyz_from_rgb;
   Vec3<T> rod_row;                            // rods, linear estimate
   T rod_floor;                                // smallest rod signal, times Y
@@ -121,6 +122,7 @@ BatchConstants<T>::BatchConstants(const OperatorConstants& c) {
   do_chroma = c.chroma > 0;
 
   unit = t(p.white_luminance);
+  luminance_rounding = t(0x1p-20 * p.white_luminance);  // 4 roundings in float, and room
   adaptation = t(p.adaptation);
   scotopic_limit = t(mesopic_scotopic_limit());
   photopic_limit = t(mesopic_photopic_limit());
@@ -133,7 +135,6 @@ BatchConstants<T>::BatchConstants(const OperatorConstants& c) {
     log_series[k] = t(2 / std::numbers::ln2 / static_cast<double>(2 * k + 1));
 
   y_row = rounded<T>(c.luminance_from_rgb);
-  for (std::size_t i = 0; i < 3; ++i) y_magnitude[i] = std::abs(y_row[i]);
   lms_from_rgb = c.lms_from_rgb.to<T>();
   xyz_from_rgb = p.xyz_from_rgb.to<T>();
   const double per_scotopic = rod_signal_per_scotopic_luminance();

@@ -44,8 +44,8 @@ struct PixelVector {
 };
 
 /// Results for a vector of pixels. Those that are not `active` are left alone, whatever `rgb` says. Of the others,
-/// `doubtful` are those that need more digits: whose luminance is what is left of a cancellation, or with a negative
-/// cone signal, which the rods' may cancel under the kernel's root.
+/// `doubtful` are those that need more digits, be it to see that they are not active: whose luminance is what is left of
+/// a cancellation, or with a negative cone signal, which the rods' may cancel under the kernel's root.
 template <class V, class M>
 struct SeenVector {
   Triple<V> rgb;
@@ -95,11 +95,16 @@ class PixelOperator {
   /// False: none of the pixels is active, and nothing else was found out.
   HWY_INLINE bool operator()(const Pixels& p, Seen& seen) const {
     if (safko()) return see_safko(p, seen);
-    const V y = dot(k_.y_row, p.rgb);
+    const Triple<V> terms = products(k_.y_row, p.rgb);
+    const V y = sum(terms);
     V local = set(k_.adaptation);
     if (!any || k_.local) local = lanes::Add(local, lanes::Max(lanes::Zero(d_), lanes::Mul(y, set(k_.unit))));
-    // First what a lit picture is skipped by. NaN is not below.
-    seen.active = lanes::Lt(local, number(T(photopic_luminance)));
+    // First what a lit picture is skipped by: its luminance, where that is no difference. NaN is not below.
+    const V limit = number(T(photopic_luminance));
+    seen.active = lanes::Lt(local, limit);
+    seen.doubtful = none();
+    if constexpr (needs_more_digits)
+      if (HWY_UNLIKELY(!lanes::AllFalse(d_, below_zero(terms)))) find_cancelled(terms, y, lanes::Sub(local, limit), seen);
     if (lanes::AllFalse(d_, seen.active)) return false;
     seen.active = lanes::And(seen.active, operable(p));
     if (lanes::AllFalse(d_, seen.active)) return false;
@@ -129,16 +134,19 @@ class PixelOperator {
     return receptors == Receptors::maybe ? p.has_rod : receptors == Receptors::given;
   }
 
+  // Pixels whose luminance is what is left of a cancellation; where it may be below the limit, too, they are active.
+  HWY_INLINE void find_cancelled(const Triple<V>& terms, V y, V over_limit, Seen& seen) const {
+    const V magnitude = sum({lanes::Abs(terms.x), lanes::Abs(terms.y), lanes::Abs(terms.z)});
+    seen.doubtful = lanes::Lt(y, lanes::Mul(number(T(0.5)), magnitude));
+    const V rounding = lanes::Mul(magnitude, set(k_.luminance_rounding));
+    seen.active = lanes::Or(seen.active, lanes::And(seen.doubtful, lanes::Lt(over_limit, rounding)));
+  }
+
   HWY_INLINE void see(const Pixels& p, V y, V local, Seen& seen) const {
     Triple<V> cones = times(k_.lms_from_rgb, p.rgb);
     const Triple<V> cones_in = cones;
-    if constexpr (needs_more_digits) {
-      const Triple<V> magnitude = {lanes::Abs(p.rgb.x), lanes::Abs(p.rgb.y), lanes::Abs(p.rgb.z)};
-      const M cancelled = lanes::Lt(y, lanes::Mul(number(T(0.5)), dot(k_.y_magnitude, magnitude)));
-      seen.doubtful = lanes::And(seen.active, lanes::Or(cancelled, below_zero(has_cones(p) ? p.cones : cones)));
-    } else {
-      seen.doubtful = none();
-    }
+    if constexpr (needs_more_digits)
+      seen.doubtful = lanes::And(seen.active, lanes::Or(seen.doubtful, below_zero(has_cones(p) ? p.cones : cones)));
     const V share = rod_share(local);
     const V rod = rod_signal(p, y);
     seen.rgb = p.rgb;
@@ -155,9 +163,11 @@ class PixelOperator {
   // Divisors of lanes whose quotient is not used must not be 0 either.
   HWY_INLINE V positive_or_one(V x) const { return lanes::IfThenElse(lanes::Gt(x, lanes::Zero(d_)), x, one()); }
 
-  HWY_INLINE V dot(const Vec3<T>& row, const Triple<V>& v) const {
-    return lanes::Add(lanes::Add(lanes::Mul(set(row[0]), v.x), lanes::Mul(set(row[1]), v.y)), lanes::Mul(set(row[2]), v.z));
+  HWY_INLINE Triple<V> products(const Vec3<T>& row, const Triple<V>& v) const {
+    return {lanes::Mul(set(row[0]), v.x), lanes::Mul(set(row[1]), v.y), lanes::Mul(set(row[2]), v.z)};
   }
+  HWY_INLINE V sum(const Triple<V>& v) const { return lanes::Add(lanes::Add(v.x, v.y), v.z); }
+  HWY_INLINE V dot(const Vec3<T>& row, const Triple<V>& v) const { return sum(products(row, v)); }
   HWY_INLINE Triple<V> times(const Matrix3<T>& m, const Triple<V>& v) const {
     return {dot(m[0], v), dot(m[1], v), dot(m[2], v)};
   }

@@ -55,7 +55,7 @@ void print(const LightNumbers& light, const SceneNumbers& numbers, const SceneSt
   fmt::print("S/P ratio            {:.4g}\n", light.sp_ratio);
   fmt::print("mesopic luminance    {:.4g} cd/m2 of the mean, coefficient m {:.4g} (1 photopic, 0 scotopic)\n",
              light.mesopic, light.m);
-  if (statistics.non_finite > 0) fmt::print("not finite           {} pixels\n", statistics.non_finite);
+  if (statistics.non_finite > 0) fmt::print("not finite           {} {}\n", statistics.non_finite, statistics.non_finite == 1 ? "pixel" : "pixels");
   fmt::print("\n{}\n{}", luminance_text(statistics, numbers.white_luminance), effects_text(plan, costs));
 }
 

@@ -77,6 +77,7 @@ class SequenceReport {
                     {"code", static_cast<int>(outcome.failure->code())}, {"message", outcome.failure->what()}});
     } else {
       ++(outcome.skipped ? skipped_ : written_);
+      if (outcome.result.value("nonFinite", 0) > 0) non_finite_.push_back(*frame.number);
       entry["status"] = outcome.skipped ? "skipped" : "written";
       entry.update(outcome.result);
     }
@@ -102,6 +103,8 @@ class SequenceReport {
     std::string text = fmt::format("{} of {} frames written", written_, frames_.size());
     if (skipped_ > 0) text += fmt::format(", {} there already", skipped_);
     if (!failed_.empty()) text += fmt::format(", {} failed ({})", failed_.size(), frames_text(failed_));
+    if (!non_finite_.empty())
+      text += fmt::format(", {} with pixels that are not finite ({})", non_finite_.size(), frames_text(non_finite_));
     const std::size_t left = frames_.size() - results_.size();
     if (left > 0) text += fmt::format(", {} not begun (from frame {} on)", left, *frames_[results_.size()].number);
     return text;
@@ -113,7 +116,7 @@ class SequenceReport {
   SaidOnce said_;
   nlohmann::ordered_json results_ = nlohmann::ordered_json::array();
   std::size_t written_ = 0, skipped_ = 0;
-  std::vector<int> failed_;
+  std::vector<int> failed_, non_finite_;
   std::optional<Error> first_failure_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 
 namespace scotopic {
 namespace {
@@ -55,6 +56,15 @@ TEST_F(Frames, hostile_names_are_only_names) {
                                "--adaptation", "1"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_TRUE(exists("seen " + hostile + "01.exr"));
+}
+
+TEST_F(Frames, those_with_pixels_that_are_not_finite_are_named_at_the_end) {
+  write_frames(4);
+  for (const char* name : {"in.0002.exr", "in.0004.exr"})
+    test::write_scaled_picture(path(name), 48, 40, std::numeric_limits<double>::infinity());
+  const Outcome outcome = apply({"--frames", "1-4", "--adaptation", "0.1"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.err.find("4 of 4 frames written, 2 with pixels that are not finite (2, 4)"), outcome.err.npos) << outcome.err;
 }
 
 TEST_F(Frames, missing_ones_are_named_before_anything_is_computed) {

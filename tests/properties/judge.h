@@ -37,16 +37,16 @@ struct Strain {
 };
 Strain strain(const OperatorConstants& constants, const Sample& sample, Planes planes);
 
-/// Allowed for a way and a pixel. In double 2e-13, and 2^-47 of the root's condition; 2e-9 and 2^-44 of it for a
-/// cancelled pixel, whose luminance matters 64^2 times more than its RGB (luminance_floor, twice in the ratio). reference: that; dual: one
-/// rounding to float more. single: 2e-6; 4e-6 with quadratic rods, whose polynomial cancels to a tenth in the reds; 8e-6
+/// Allowed for a way and a pixel. In double 2e-13, and 2^-47 of the root's condition; 1e-7 and 2^-44 of it for a
+/// cancelled pixel: of floats, 2^24 times its luminance may cancel. reference: that; dual: one rounding to float more. single: 2e-6; 4e-6 with quadratic rods, whose polynomial cancels to a tenth in the reds; 8e-6
 /// for a cancelled pixel.
 double allowed_error(Way way, RodEstimate rods, const Strain& strain);
 
 /// The part of it that double has, whatever the way.
 double allowed_in_double(const Strain& strain);
 
-/// Allowed for component_error, in regimes of light.
+/// Allowed for component_error, in regimes of light, for all but one in a million; for that one ten times as much: a
+/// component that the gamut leaves a small rest of has no bound of its own.
 double allowed_component_error(Way way);
 
 /// A setting with all three ways of computing.

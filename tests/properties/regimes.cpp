@@ -201,6 +201,12 @@ Rgb draw_rgb(Regime regime, const OperatorConstants& c, Random& random) {
     }
     case Regime::luminance_zero: {
       rgb[any] = -rgb[any];
+      const double rest = (photopic_luminance * random.uniform(0.99, 1.01) - c.parameters.adaptation) / unit;
+      if (rest > 0 && random.chance(0.3)) {  // of large numbers, about as much as decides whether rods see
+        const double scale = rest * random.log_uniform(1e2, 1e7) / std::abs(rgb[any]);
+        for (auto& x : rgb) x *= scale;
+        return solved_for(c.luminance_from_rgb, rgb, rest);
+      }
       const double largest = std::abs(rgb[0]) + std::abs(rgb[1]) + std::abs(rgb[2]);
       return solved_for(c.luminance_from_rgb, rgb, random.chance(0.3) ? 0 : largest * random.log_uniform(1e-9, 1e-3));
     }

@@ -43,7 +43,7 @@ enum class Regime {
   threshold_photopic, ///< Lloc around 5 and 4.998 cd/m2, to a few ulp
   threshold_scotopic, ///< Lloc around .005 and the end of MES2 at .0020 and .001 cd/m2, to a few ulp
   threshold_floor,    ///< luminance around 1/64 of the largest cone signal, half of them to a few ulp
-  luminance_zero,     ///< luminance the rest of a cancellation
+  luminance_zero,     ///< luminance the rest of a cancellation, of any size or around 5 cd/m2
   kernel_clamp,       ///< cone + kappa rod around 0, where the root's argument is clamped; half to a few ulp
   projection_face,    ///< a component around 0, of the input or, to a few ulp, of the shifted colour
   mixed_exponents,    ///< components of unrelated size
