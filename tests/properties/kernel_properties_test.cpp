@@ -212,7 +212,7 @@ TEST(KernelProperties, the_shift_of_a_grey_turns_by_15_4_degrees_from_dark_to_br
         RC_ASSERT(above >= here - 1e-9);
       },
       {{"filament2021", 0.4}, {"kirk2011", 0.4}});
-  std::printf("%.4f %.4f %.4f %.4f\n", least[0], most[0], least[1], most[1]);
+  std::printf("hue of a grey's shift: filament2021 %.2f to %.2f, kirk2011 %.2f to %.2f degrees\n", least[0], most[0], least[1], most[1]);
 }
 
 TEST(AdaptationProperties, the_mesopic_coefficient_is_the_fixed_point_of_mes2) {

@@ -40,13 +40,13 @@ inline double local_luminance(const AppearanceReference& op, const Vec3<double>&
 }
 
 /// A light: no component and no cone signal negative, and luminance not under 1/64 of the cone signals, white's being 1.
-inline bool is_light(const Case& c) {
+inline bool is_light(const Case& c, double least_luminance = luminance_floor) {
   const OperatorConstants constants(c.parameters);
   const Vec3<double> rgb = {c.sample.rgb[0], c.sample.rgb[1], c.sample.rgb[2]};
   const auto q = constants.lms_from_rgb * rgb;
   const double y = dot(constants.luminance_from_rgb, rgb);
   for (std::size_t i = 0; i < 3; ++i)
-    if (rgb[i] < 0 || q[i] <= 0 || y < luminance_floor * q[i] / constants.cone_white[i]) return false;
+    if (rgb[i] < 0 || q[i] <= 0 || y < least_luminance * q[i] / constants.cone_white[i]) return false;
   return largest(rgb) <= operable_limit && largest(rgb) > 1e-30;
 }
 
