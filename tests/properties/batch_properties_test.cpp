@@ -2,7 +2,10 @@
 #include <hwy/targets.h>
 
 #include <bit>
+#include <cstdio>
 #include <cstring>
+#include <set>
+#include <string>
 #include <thread>
 
 #include "properties/judge.h"
@@ -38,7 +41,8 @@ std::vector<std::array<std::uint32_t, 3>> row_bits(Rows& rows) {
   return out;
 }
 
-const Shares regimes_in_rows = all_regimes();  // each at least once in 50 rows, in fact in nearly all
+// A row of 37 pixels holds a given one of 19 regimes in 86 % of draws.
+const Shares regimes_in_rows = all_regimes({}, {}, 0.8);
 
 TEST(BatchProperties, order_and_grouping_of_pixels_do_not_matter) {
   for_all(
@@ -74,26 +78,33 @@ TEST(BatchProperties, order_and_grouping_of_pixels_do_not_matter) {
 }
 
 TEST(BatchProperties, every_simd_target_gives_the_same_bits) {
+  constexpr bool compiled_for_one = (HWY_TARGETS & (HWY_TARGETS - 1)) == 0;
+  const auto targets = hwy::SupportedAndGeneratedTargets();
+  if (compiled_for_one || targets.size() == 1)
+    GTEST_SKIP() << (compiled_for_one ? "compiled for one target" : "this machine has but one of the targets");
+  std::set<std::string> compared;
   for_all(
       seeds(),
-      [](std::uint64_t seed, Coverage& coverage) {
+      [&](std::uint64_t seed, Coverage& coverage) {
         const Row row = draw_row(seed, coverage, 37);
         const Precision precision = seed % 2 ? Precision::single : Precision::dual;
         const AppearanceBatch batch(row.parameters, precision);
         std::vector<std::array<std::uint32_t, 3>> expected;
-        for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        for (const int64_t target : targets) {
           hwy::SetSupportedTargetsForTest(target);
           Rows rows(row.samples);
           batch.apply(rows.view(row.planes));
+          if (std::strcmp(simd_target(), "Unknown") != 0) compared.insert(simd_target());  // the library may have fewer
           const auto got = row_bits(rows);
           if (expected.empty()) expected = got;
-          else coverage("a second target");
           if (got != expected) hwy::SetSupportedTargetsForTest(0);
           RC_ASSERT(got == expected);
         }
         hwy::SetSupportedTargetsForTest(0);
       },
       regimes_in_rows);
+  EXPECT_GE(compared.size(), 2u) << "the library ran one target only";
+  for (const auto& target : compared) std::printf("compared: %s\n", target.c_str());
 }
 
 TEST(BatchProperties, threads_do_not_matter) {
@@ -145,7 +156,7 @@ TEST(BatchProperties, pixels_side_by_side_give_what_planes_give_and_alpha_keeps_
           RC_ASSERT(std::memcmp(&rgba[4 * i + 3], &alpha[i], sizeof alpha[i]) == 0);
         }
       },
-      all_regimes({}, {{"alpha is NaN", 0.1}}));
+      all_regimes({}, {{"alpha is NaN", 0.1}}, 0.8));
 }
 
 TEST(BatchProperties, where_two_faces_of_the_gamut_meet_no_result_slips_out) {
@@ -162,7 +173,8 @@ TEST(BatchProperties, where_two_faces_of_the_gamut_meet_no_result_slips_out) {
         p.luminance = LuminancePolicy::none;
         p.strength.chroma = 0;
         p.xyz_from_rgb = p.xyz_from_gamut.emplace(rec709);
-        const AppearanceBatch batch(p, random.chance(0.7) ? Precision::single : Precision::dual);
+        const bool single = random.chance(0.7);
+        const AppearanceBatch batch(p, single ? Precision::single : Precision::dual);
         Sample ends[2];
         for (Sample& end : ends) {
           for (auto& x : end.rgb) x = static_cast<float>(random.log_uniform(1e-4, 1));
@@ -186,15 +198,16 @@ TEST(BatchProperties, where_two_faces_of_the_gamut_meet_no_result_slips_out) {
         const int first = faces(at(low)), last = faces(at(high));
         // From inside to a face there is nothing to choose: the sign of a component decides.
         const bool between_faces = first != last && first && last;
-        coverage("between faces", between_faces);
-        if (!between_faces) return;
+        RC_PRE(between_faces);
+        coverage("single", single);
+        coverage("dual", !single);
         while (std::nextafter(low, high) < high) {
           const float middle = low + (high - low) / 2;
           if (middle == low || middle == high) break;
           (faces(at(middle)) == first ? low : high) = middle;
         }
       },
-      {{"between faces", 0.05}});
+      {{"single", 0.5}, {"dual", 0.2}});
 }
 
 TEST(BatchProperties, a_strength_too_small_for_the_number_type_changes_no_bit) {
@@ -207,8 +220,8 @@ TEST(BatchProperties, a_strength_too_small_for_the_number_type_changes_no_bit) {
         least.parameters.strength.chroma = 0x1p-55;
         coverage(name(c.regime));
         for (const Precision precision : {Precision::single, Precision::dual})
-          RC_ASSERT(applied(AppearanceBatch(least.parameters, precision), least) ==
-                    applied(AppearanceBatch(c.parameters, precision), c));  // -0 may become 0
+          RC_ASSERT(bits(applied(AppearanceBatch(least.parameters, precision), least)) ==
+                    bits(applied(AppearanceBatch(c.parameters, precision), c)));
       },
       all_regimes({Regime::huge}));
 }

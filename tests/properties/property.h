@@ -1,4 +1,4 @@
-// RapidCheck under GoogleTest: a fixed number of draws, a fixed seed, and coverage that is asserted, not hoped for.
+// RapidCheck under GoogleTest: a fixed number of checks, a fixed seed, and coverage that is asserted, not hoped for.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <map>
 #include <ostream>
+#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -34,20 +35,31 @@ inline std::ostream& operator<<(std::ostream& out, const Case& c) {
   return out << text << to_text(c.parameters);
 }
 
-/// Counts how often a draw was of a kind.
+/// Counts the checks that were of a kind. A check has a kind once, however often it says so, and only when it has ended:
+/// a draw that the property does not apply to (RC_PRE) is no check.
 class Coverage {
  public:
-  void operator()(const std::string& kind, bool yes = true) { hits_[kind] += yes; }
+  void operator()(const std::string& kind, bool yes = true) {
+    if (yes) now_.insert(kind);
+  }
+  void begin() { now_.clear(); }
+  void end() {
+    ++checks_;
+    for (const auto& kind : now_) ++hits_[kind];
+  }
+  int checks() const { return checks_; }
   int hits(const std::string& kind) const {
     const auto found = hits_.find(kind);
     return found == hits_.end() ? 0 : found->second;
   }
 
  private:
+  std::set<std::string> now_;
   std::map<std::string, int> hits_;
+  int checks_ = 0;
 };
 
-/// Kinds that must make up at least these shares of the draws.
+/// Kinds that must make up at least these shares of the checks.
 using Shares = std::vector<std::pair<std::string, double>>;
 
 inline std::vector<Case> simpler(const Case& c) {
@@ -95,34 +107,43 @@ inline rc::Gen<std::uint64_t> seeds() {
   return [](const rc::Random& random, int) { return rc::shrinkable::just(rc::Random(random).next()); };
 }
 
-inline constexpr int usual_draws = 10000;
+inline constexpr int usual_checks = 10000;
 
-/// Checks property(value, coverage) on `draws` values of `gen`; fails with the simplest counterexample found, or if
-/// fewer draws than required were of a kind. SCOTOPIC_SEED draws others.
+/// Checks property(value, coverage) on values of `gen` until `checks` of them have been checked to the end; what RC_PRE
+/// refuses is drawn again, at most 10 times as often as checked. Fails with the simplest counterexample found, if too few
+/// values apply, or if fewer checks than required were of a kind. SCOTOPIC_SEED draws others.
 template <typename T, typename Property>
-void for_all(const rc::Gen<T>& gen, Property property, const Shares& required, int draws = usual_draws) {
+void for_all(const rc::Gen<T>& gen, Property property, const Shares& required, int checks = usual_checks) {
   Coverage coverage;
   rc::detail::TestParams params;
   const char* seed = std::getenv("SCOTOPIC_SEED");
   params.seed = seed ? std::strtoull(seed, nullptr, 10) : 8;
-  params.maxSuccess = draws;
+  params.maxSuccess = checks;
+  params.maxDiscardRatio = 10;
   rc::detail::TestMetadata metadata;
   metadata.id = testing::UnitTest::GetInstance()->current_test_info()->name();
-  const auto result = rc::detail::checkTestable([&] { property(*gen, coverage); }, metadata, params);
+  const auto check = [&] {
+    coverage.begin();
+    property(*gen, coverage);
+    coverage.end();
+  };
+  const auto result = rc::detail::checkTestable(check, metadata, params);
   if (!result.template is<rc::detail::SuccessResult>()) {
     std::ostringstream text;
     rc::detail::printResultMessage(result, text);
     FAIL() << text.str();
   }
+  EXPECT_GE(checks, usual_checks);
+  EXPECT_EQ(coverage.checks(), checks) << "a draw that was not checked to the end was counted";
   for (const auto& [kind, share] : required)
-    EXPECT_GE(coverage.hits(kind), share * draws) << "too few draws were: " << kind;
+    EXPECT_GE(coverage.hits(kind), share * checks) << "too few checks were: " << kind;
 }
 
-/// Each regime but those left out in at least 2 % of the draws; add what else must be covered.
-inline Shares all_regimes(std::vector<Regime> without = {}, Shares more = {}) {
+/// Each regime but those left out in at least `share` of the checks; add what else must be covered.
+inline Shares all_regimes(std::vector<Regime> without = {}, Shares more = {}, double share = 0.02) {
   for (int i = 0; i < regime_count; ++i)
     if (std::find(without.begin(), without.end(), static_cast<Regime>(i)) == without.end())
-      more.emplace_back(name(static_cast<Regime>(i)), 0.02);
+      more.emplace_back(name(static_cast<Regime>(i)), share);
   return more;
 }
 
