@@ -7,6 +7,7 @@
 #include "cli/explain_config.h"
 #include "cli/explain_frames.h"
 #include "cli/explain_report.h"
+#include "cli/non_finite_report.h"
 #include "cli/program.h"
 #include "cli/scene_plan.h"
 #include "cli/scene_settings.h"
@@ -55,7 +56,6 @@ void print(const LightNumbers& light, const SceneNumbers& numbers, const SceneSt
   fmt::print("S/P ratio            {:.4g}\n", light.sp_ratio);
   fmt::print("mesopic luminance    {:.4g} cd/m2 of the mean, coefficient m {:.4g} (1 photopic, 0 scotopic)\n",
              light.mesopic, light.m);
-  if (statistics.non_finite > 0) fmt::print("not finite           {} {}\n", statistics.non_finite, statistics.non_finite == 1 ? "pixel" : "pixels");
   fmt::print("\n{}\n{}", luminance_text(statistics, numbers.white_luminance), effects_text(plan, costs));
 }
 
@@ -118,6 +118,7 @@ int run_explain_image(const ExplainOptions& options, const SceneSettings& settin
   const LightNumbers light = light_of(statistics, numbers);
   if (plot) write_text(*plot, luminance_svg(statistics, numbers.white_luminance, numbers.adaptation));
   if (!console.json()) print(light, numbers, statistics, plan, costs);
+  report_non_finite(statistics.non_finite, "in none of these numbers", *scene.source, scene.layout, settings.config, console);
   console.result(result_of(options, light, numbers, statistics, plan, costs, *scene.source));
   return static_cast<int>(ExitCode::done);
 }

@@ -9,14 +9,10 @@
 #include "image/error.h"
 #include "image/light_path.h"
 #include "image/row_bands.h"
+#include "scene/scene_statistics.h"
 
 namespace scotopic {
 namespace {
-
-bool finite_signals(const PixelRows& rows, std::size_t i) {
-  const auto fine = [i](const float* plane) { return plane == nullptr || std::isfinite(plane[i]); };
-  return fine(rows.cone_l) && fine(rows.cone_m) && fine(rows.cone_s) && fine(rows.rod);
-}
 
 bool any_non_finite(const PixelRows& rows) {
   for (const float* plane :
@@ -24,10 +20,6 @@ bool any_non_finite(const PixelRows& rows) {
         rows.cone_l, rows.cone_m, rows.cone_s, rows.rod})
     if (plane && scotopic::any_non_finite(plane, rows.count)) return true;
   return false;
-}
-
-bool finite_pixel(const PixelRows& rows, std::size_t i) {
-  return std::isfinite(rows.r[i]) && std::isfinite(rows.g[i]) && std::isfinite(rows.b[i]) && finite_signals(rows, i);
 }
 
 void clean_pixel(const PixelRows& rows, std::size_t i) {
@@ -45,7 +37,7 @@ RowOperator NonFiniteWatch::watched(RowOperator apply) const {
     std::vector<std::size_t> bad;
     if (any_non_finite(rows))
       for (std::size_t i = 0; i < rows.count; ++i)
-        if (!finite_pixel(rows, i)) bad.push_back(i);
+        if (!is_finite(rows, i)) bad.push_back(i);
     if (clean)
       for (const std::size_t i : bad) clean_pixel(rows, i);
     if (apply) apply(rows, touched);
@@ -60,7 +52,7 @@ RowOperator NonFiniteWatch::watched(RowOperator apply) const {
 std::uint64_t count_non_finite(const PixelRows& rows) {
   std::uint64_t count = 0;
   if (any_non_finite(rows))
-    for (std::size_t i = 0; i < rows.count; ++i) count += !finite_pixel(rows, i);
+    for (std::size_t i = 0; i < rows.count; ++i) count += !is_finite(rows, i);
   return count;
 }
 
@@ -78,7 +70,7 @@ NonFinitePixels find_non_finite(PixelSource& source, const ImageLayout& layout, 
         reader.read(band, y, row);
         const PixelRows pixels = row.pixels(reader.receptors());
         for (std::size_t i = 0; i < pixels.count; ++i)
-          if (!finite_pixel(pixels, i) && found.count++ == 0)
+          if (!is_finite(pixels, i) && found.count++ == 0)
             found.x = picture.data.x0 + static_cast<int>(i), found.y = y0 + y;
       }
     });

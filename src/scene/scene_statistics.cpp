@@ -36,14 +36,21 @@ double SceneStatistics::log_mean_luminance() const noexcept {
   return offset > 0 ? std::exp(photopic.mean_log(offset)) : 0;
 }
 
+bool finite_signals(const PixelRows& rows, std::size_t i) noexcept {
+  const auto fine = [i](const float* plane) { return plane == nullptr || std::isfinite(plane[i]); };
+  return fine(rows.cone_l) && fine(rows.cone_m) && fine(rows.cone_s) && fine(rows.rod);
+}
+
+bool is_finite(const PixelRows& rows, std::size_t i) noexcept {
+  return std::isfinite(rows.r[i]) && std::isfinite(rows.g[i]) && std::isfinite(rows.b[i]) && finite_signals(rows, i);
+}
+
 void SceneStatistics::add(const SceneStatistics& other) {
   least = std::min(least, other.least);
   greatest = std::max(greatest, other.greatest);
   photopic.add(other.photopic);
   scotopic.add(other.scotopic);
   non_finite += other.non_finite;
-  if (other.first_non_finite)
-    first_non_finite = std::min(first_non_finite.value_or(*other.first_non_finite), *other.first_non_finite);
   sp_deviation = std::max(sp_deviation, other.sp_deviation);
   samples.insert(samples.end(), other.samples.begin(), other.samples.end());
 }
@@ -62,10 +69,9 @@ void SceneMeter::measure(const PixelRows& rows, std::uint64_t first_pixel, Scene
   for (std::size_t i = 0; i < rows.count; ++i) {
     const Vec3<float> rgb = {rows.r[i], rows.g[i], rows.b[i]};
     const float y = dot(y_row_, rgb);
-    if (!std::isfinite(y)) {
-      if (!s.first_non_finite) s.first_non_finite = first_pixel + i;
-      s.first_non_finite = std::min(*s.first_non_finite, first_pixel + i);
-      ++s.non_finite;
+    // Y is finite only where R, G and B are.
+    if (!std::isfinite(y) || !finite_signals(rows, i)) {
+      if (!is_finite(rows, i)) ++s.non_finite;
       continue;
     }
     if ((first_pixel + i) % sample_every_ == 0) s.samples.insert(s.samples.end(), rgb.begin(), rgb.end());

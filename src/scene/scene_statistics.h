@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "appearance/batch.h"
@@ -12,12 +11,16 @@
 
 namespace scotopic {
 
+/// Whether all components of pixel `i`, and the receptor signals given with it, are finite.
+bool is_finite(const PixelRows& rows, std::size_t i) noexcept;
+/// Of those signals alone.
+bool finite_signals(const PixelRows& rows, std::size_t i) noexcept;
+
 /// Luminances are in image units: cd/m2 once multiplied by the unit.
 struct SceneStatistics {
   LuminanceHistogram photopic;
   LuminanceHistogram scotopic;
-  std::uint64_t non_finite = 0;
-  std::optional<std::uint64_t> first_non_finite;  ///< position, row by row
+  std::uint64_t non_finite = 0;  ///< pixels with a component, of light or receptors, that is NaN or infinite; in no number
   float least = std::numeric_limits<float>::infinity();      ///< of Y over finite pixels; may be negative
   float greatest = -std::numeric_limits<float>::infinity();  ///< below least: there is no finite pixel
   /// Greatest |S/P over white's - 1| among pixels of positive luminance; infinite if rods see light where Y <= 0.

@@ -120,6 +120,12 @@ TEST_F(NonFiniteReport, lmsr_tells_of_them_too) {
   EXPECT_EQ(nlohmann::json::parse(run({"lmsr", "--json"}).out).at("nonFinite"), 2);
 }
 
+TEST_F(NonFiniteReport, explain_leaves_them_out_of_its_numbers_and_says_so) {
+  const test::Outcome said = test::run_program({"explain", path("in.exr"), "--adaptation", "0.05"});
+  ASSERT_EQ(said.exit_code, 0) << said.err;
+  EXPECT_EQ(times(said.err, "in.exr: 2 pixels are not finite, the first at (513, 3); in none of these numbers"), 1) << said.err;
+}
+
 TEST_F(NonFiniteReport, spectra_that_are_not_finite_are_told_of_and_spoil_no_other_pixel) {
   Imf::Header header(width, height);
   const char* bands[] = {"S0.450,0nm", "S0.550,0nm", "S0.650,0nm"};

@@ -62,13 +62,32 @@ TEST(SceneStatistics, rows_may_be_measured_in_any_grouping) {
 
 TEST(SceneStatistics, pixels_that_are_not_finite_enter_no_number_and_are_counted) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
-  Picture picture{{0.1f, nan, inf, 0.1f}, {0.1f, 1, 1, 0.1f}, {0.1f, 1, -inf, 0.1f}};
-  SceneStatistics s;
-  SceneMeter(rec709(), 4).measure(picture.rows(0, 4), 40, s);
-  EXPECT_EQ(s.non_finite, 2u);
-  EXPECT_EQ(s.first_non_finite, 41u);
+  Picture picture{{0.1f, nan, inf, 0.1f, 5, 5, 5}, {0.1f, 1, 1, 0.1f, 5, 5, 5}, {0.1f, 1, -inf, 0.1f, 5, 5, 5}};
+  std::vector<float> rod = {0.1f, 0.1f, 0.1f, 0.1f, nan, inf, 0.1f}, cone = {0.1f, 0.1f, 0.1f, 0.1f, 5, 5, -inf};
+  PixelRows rows = picture.rows(0, 7);
+  rows.rod = rod.data(), rows.cone_m = cone.data();
+  SceneStatistics s, sound;
+  SceneMeter(rec709(), 7).measure(rows, 40, s);
+  EXPECT_EQ(s.non_finite, 5u);
+  EXPECT_EQ(s.finite(), 2u);
   EXPECT_NEAR(s.mean_photopic(), 0.1, 1e-7);
   EXPECT_LE(s.greatest, 0.11f);
+  EXPECT_LT(s.sp_deviation, 10);
+  Picture two{{0.1f, 0.1f}, {0.1f, 0.1f}, {0.1f, 0.1f}};
+  rows = two.rows(0, 2);
+  rows.rod = rod.data();
+  SceneMeter(rec709(), 7).measure(rows, 40, sound);
+  EXPECT_EQ(s.mean_scotopic(), sound.mean_scotopic());
+}
+
+TEST(SceneStatistics, finite_pixels_whose_luminance_is_not_a_float_enter_no_number_but_are_not_called_infinite) {
+  Picture picture{{3e38f, 0.1f}, {3e38f, 0.1f}, {3e38f, 0.1f}};
+  SceneStatistics s;
+  auto p = rec709();
+  for (double& x : p.xyz_from_rgb[1]) x *= 2;
+  SceneMeter(p, 2).measure(picture.rows(0, 2), 0, s);
+  EXPECT_EQ(s.non_finite, 0u);
+  EXPECT_EQ(s.finite(), 1u);
 }
 
 TEST(SceneStatistics, signals_beyond_a_float_count_as_the_greatest) {
