@@ -39,7 +39,7 @@ std::uint64_t lane_bits(D d, hn::Mask<D> mask) {
 // Computes in double the pixels at `at` that `bits` names, and says which of them were active; `lanes` pixels may be read.
 template <class Rows>
 std::uint64_t apply_exactly(const WideConstants<double>& exact, const Rows& rows, std::size_t at, std::size_t lanes,
-                   std::uint64_t bits) {
+                            std::uint64_t bits) {
   using D = Tag<double>;
   const D d;
   const PixelOperator<D> op(d, exact);

@@ -41,7 +41,7 @@ std::vector<std::array<std::uint32_t, 3>> row_bits(Rows& rows) {
   return out;
 }
 
-// A row of 37 pixels holds a given one of 19 regimes in 86 % of draws.
+// A row of 37 pixels holds a given one of 20 regimes in 85 % of draws.
 const Shares regimes_in_rows = all_regimes({}, {}, 0.8);
 
 TEST(BatchProperties, order_and_grouping_of_pixels_do_not_matter) {

@@ -35,8 +35,7 @@ inline double luminance(const AppearanceReference& op, const Vec3<double>& rgb) 
 }
 
 inline double local_luminance(const AppearanceReference& op, const Vec3<double>& rgb) {
-  const auto& p = op.constants().parameters;
-  return p.adaptation + (p.weight == Weight::local ? std::max(0.0, luminance(op, rgb) * p.white_luminance) : 0.0);
+  return local_luminance(op.constants(), rgb);
 }
 
 /// A light: no component and no cone signal negative, and luminance not under 1/64 of the cone signals, white's being 1.
