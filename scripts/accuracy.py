@@ -86,7 +86,7 @@ def count_instructions(build):
     counts = {}
     for way, what in INSTRUCTIONS.items():
         out = subprocess.run(["sh", ROOT / "tests/instructions/count.sh", "valgrind",
-                              build / "tests/instructions/instructions_workload", way, "999"],
+                              build / "tests/instructions_workload", way, "999"],
                              capture_output=True, text=True).stdout
         counts[what] = out.split(": ")[1].split(" ")[0]
     return counts
@@ -205,7 +205,7 @@ def measure(build, folder, rounds):
                            folder / "accuracy.svg"))
     times["processors"] = os.cpu_count()
     (folder / "time.json").write_text(json.dumps(times))
-    (folder / "bench.json").write_text(run(build / "tests/bench/bench_appearance", rounds, "--json"))
+    (folder / "bench.json").write_text(run(build / "tests/bench_appearance", rounds, "--json"))
     (folder / "instructions.json").write_text(json.dumps(count_instructions(build)))
 
 

@@ -75,7 +75,7 @@ def saves(bench, page):
 
 CPU time of one thread on {processor}, system load {os.getloadavg()[0]:.1f}; medians of {ROUNDS} rounds, each held to its
 pair in the same round. A file is held to reading and writing it by OpenEXR's own calls, in the same bands; the program's start
-is included. The picture is a night by formula. `build/release/tests/bench/bench_effects {ROUNDS}` prints it.
+is included. The picture is a night by formula. `build/release/tests/bench_effects {ROUNDS}` prints it.
 
 | what | takes | against | ratio |
 |---|---:|---:|---:|
@@ -92,7 +92,7 @@ def main():
     with open(path, encoding='utf-8') as old:
         page = old.read()
     rows = [row(*scene, explain(program, scene[0], scene[1])) for scene in SCENES]
-    text = HEAD + ''.join(rows) + '\n' + saves(os.path.join(build, 'tests/bench/bench_effects'), page)
+    text = HEAD + ''.join(rows) + '\n' + saves(os.path.join(build, 'tests/bench_effects'), page)
     with open(path, 'w', encoding='utf-8') as out:
         out.write(text)
 

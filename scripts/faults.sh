@@ -11,7 +11,7 @@ cmake --build --preset "$preset" --target test_faults >/dev/null
 table=$PWD/build/$preset/faults-table.md
 rm -f "$table"
 result=0
-SCOTOPIC_FAULTS=$form SCOTOPIC_FAULT_TABLE=$table "build/$preset/tests/faults/test_faults" --gtest_brief=1 || result=1
+SCOTOPIC_FAULTS=$form SCOTOPIC_FAULT_TABLE=$table "build/$preset/tests/test_faults" --gtest_brief=1 || result=1
 echo
 echo "| fault | tries | expected | seen |"
 echo "|---|---:|---|---|"

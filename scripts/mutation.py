@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Mutation check: does the short test suite notice each fault of scripts/mutants.txt?
 
-Copies the last commit, applies one fault after the other, builds, and runs the tests of kernel, adaptation and appearance
+Copies the last commit, applies one fault after the other, builds, and runs the tests of kernel, adaptation, stages and batch
 and the properties, stopping at the first that fails. Prints the score and the survivors; exits 1 below 95 %.
 
   scripts/mutation.py [--work DIR] [--jobs N] [--only REGEX] [--check]
@@ -23,8 +23,8 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # The tests that know a room best come first: most faults never see the slow ones.
-ALL_TESTS = ["kernel", "adaptation", "appearance", "properties"]
-TESTS_OF = {"src/kernel": ALL_TESTS, "src/adaptation": ALL_TESTS[1:], "src/appearance": ALL_TESTS[2:]}
+ALL_TESTS = ["kernel", "adaptation", "stages", "batch", "properties"]
+TESTS_OF = {"src/kernel": ALL_TESTS, "src/adaptation": ALL_TESTS[1:], "src/stages": ALL_TESTS[2:], "src/batch": ALL_TESTS[3:]}
 THRESHOLD = 0.95
 # One SIMD target: that targets agree is tested elsewhere, and each costs time to compile. One of several lanes, SSE4 (for
 # Highway SSE4.2, AES and PCLMUL): else it would be the scalar one, in which no pixel has neighbours.
@@ -103,7 +103,7 @@ class Suite:
         for test in tests:
             if run(["ninja", "-C", self.build, f"-j{self.jobs}", f"test_{test}"]):
                 return "build"
-            program = self.build / "tests" / test / f"test_{test}"
+            program = self.build / "tests" / f"test_{test}"
             try:
                 failed = run([program, "--gtest_fail_fast"], timeout=600)
             except subprocess.TimeoutExpired:

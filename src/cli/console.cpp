@@ -12,7 +12,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "image/output_file.h"
+#include "io/atomic/output_file.h"
 
 namespace scotopic {
 namespace {

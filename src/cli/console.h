@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "image/error.h"
+#include "base/error.h"
 
 namespace scotopic {
 

@@ -1,4 +1,4 @@
 // scotopic VERB IN... -o OUT [options]
-#include "cli/verbs.h"
+#include "cli/verbs/verbs.h"
 
 int main(int argc, char** argv) { return scotopic::run_program(argc, argv, scotopic::verbs()); }

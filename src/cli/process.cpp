@@ -10,8 +10,8 @@
 #include <exception>
 #include <new>
 
-#include "image/error.h"
-#include "image/output_file.h"
+#include "base/error.h"
+#include "io/atomic/output_file.h"
 
 namespace scotopic {
 namespace {

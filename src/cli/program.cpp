@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cli/process.h"
-#include "image/names.h"
+#include "base/names.h"
 
 namespace scotopic {
 namespace {

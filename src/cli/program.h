@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/console.h"
-#include "cli/recipe.h"
+#include "cli/sequence/recipe.h"
 
 namespace scotopic {
 

@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "acuity/cutoff.h"
-#include "appearance/colour_difference.h"
-#include "appearance/reference.h"
-#include "appearance/stages.h"
+#include "stages/acuity/cutoff.h"
+#include "stages/shared/colour_difference.h"
+#include "stages/reference.h"
+#include "stages/table.h"
 
 namespace scotopic {
 namespace {

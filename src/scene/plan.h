@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "appearance/parameters.h"
+#include "stages/shared/parameters.h"
 #include "scene/scene_statistics.h"
 
 namespace scotopic {

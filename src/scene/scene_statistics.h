@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "appearance/batch.h"
-#include "scene/luminance_histogram.h"
+#include "batch/batch.h"
+#include "stages/shared/luminance_histogram.h"
 
 namespace scotopic {
 

@@ -16,7 +16,7 @@
 #include <string>
 #include <thread>
 
-#include "acuity/scenes.h"
+#include "stages/acuity/scenes.h"
 
 namespace {
 

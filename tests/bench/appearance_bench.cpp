@@ -12,13 +12,13 @@
 #include <string>
 #include <vector>
 
-#include "appearance/batch.h"
-#include "appearance/reference.h"
-#include "bake/contenders.h"
-#include "bake/timing.h"
-#include "bake/ways.h"
-#include "image/apply_image.h"
-#include "image/row_bands.h"
+#include "batch/batch.h"
+#include "stages/reference.h"
+#include "looks/verify/contenders.h"
+#include "looks/verify/timing.h"
+#include "looks/verify/ways.h"
+#include "pipeline/apply_image.h"
+#include "io/row_bands.h"
 #include "properties/mpfr_reference.h"
 #include "support/primaries.h"
 

@@ -21,10 +21,10 @@
 #include <string>
 #include <vector>
 
-#include "appearance/batch.h"
-#include "bake/contenders.h"
-#include "bake/timing.h"
-#include "image/pixel_type.h"
+#include "batch/batch.h"
+#include "looks/verify/contenders.h"
+#include "looks/verify/timing.h"
+#include "io/pixel_type.h"
 #include "support/primaries.h"
 
 namespace {

@@ -14,11 +14,11 @@
 #include <numeric>
 #include <vector>
 
-#include "image/apply_image.h"
-#include "image/row_bands.h"
-#include "image/spectral_source.h"
+#include "pipeline/apply_image.h"
+#include "io/row_bands.h"
+#include "io/spectral/spectral_source.h"
 #include "receptors/spectral_integrator.h"
-#include "spectral/scene.h"
+#include "io/spectral/scene.h"
 
 namespace scotopic {
 namespace {

@@ -14,7 +14,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "appearance/colour_difference.h"
+#include "stages/shared/colour_difference.h"
 #include "cli/run_program.h"
 #include "receptors/rods.h"
 #include "support/primaries.h"

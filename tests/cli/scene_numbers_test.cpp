@@ -1,8 +1,8 @@
-#include "cli/scene_numbers.h"
+#include "cli/scene/scene_numbers.h"
 
 #include <gtest/gtest.h>
 
-#include "image/error.h"
+#include "base/error.h"
 
 namespace scotopic {
 namespace {

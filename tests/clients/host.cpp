@@ -11,8 +11,8 @@
 #include <filesystem>
 #include <limits>
 
-#include "bake/measure.h"
-#include "image/primaries.h"
+#include "looks/verify/measure.h"
+#include "color/primaries.h"
 
 namespace OCIO = OCIO_NAMESPACE;
 

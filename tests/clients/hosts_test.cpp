@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "bake/ladder.h"
+#include "looks/lut/ladder.h"
 #include "clients/host.h"
 
 namespace OCIO = OCIO_NAMESPACE;

@@ -1,8 +1,8 @@
 // Uses the installed headers and libraries: one pixel through the operator, one colour config.
 #include <cstdio>
 
-#include "appearance/reference.h"
-#include "image/base_config.h"
+#include "stages/reference.h"
+#include "color/base_config.h"
 
 int main() {
   scotopic::AppearanceParameters parameters;

@@ -7,9 +7,9 @@
 
 #include "faults/inputs.h"
 #include "faults/sweep.h"
-#include "image/error.h"
-#include "image/pixel_source.h"
-#include "image/row_bands.h"
+#include "base/error.h"
+#include "io/pixel_source.h"
+#include "io/row_bands.h"
 
 namespace scotopic::test {
 namespace {

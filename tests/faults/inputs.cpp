@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "faults/rig.h"
-#include "image/base_config.h"
+#include "color/base_config.h"
 
 namespace scotopic::test {
 namespace {

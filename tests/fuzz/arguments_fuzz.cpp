@@ -10,7 +10,7 @@
 
 #include "cli/program.h"
 #include "fuzz/target.h"
-#include "image/error.h"
+#include "base/error.h"
 
 namespace scotopic::fuzz {
 

@@ -1,7 +1,7 @@
 // Texts of LUT files (CLF, CTF): opened as check does, and one pixel put through.
-#include "bake/inspect.h"
+#include "looks/verify/inspect.h"
 #include "fuzz/target.h"
-#include "image/error.h"
+#include "base/error.h"
 
 namespace scotopic::fuzz {
 

@@ -1,8 +1,8 @@
 // Texts of OCIO configs: opened, every space looked at and converted through.
 #include "fuzz/target.h"
-#include "image/base_config.h"
-#include "image/colour_config.h"
-#include "image/error.h"
+#include "color/base_config.h"
+#include "color/colour_config.h"
+#include "base/error.h"
 
 namespace scotopic::fuzz {
 

@@ -11,9 +11,9 @@
 #include <OpenEXR/ImfTiledOutputFile.h>
 
 #include "fuzz/target.h"
-#include "image/error.h"
-#include "image/pixel_source.h"
-#include "image/spectral_source.h"
+#include "base/error.h"
+#include "io/pixel_source.h"
+#include "io/spectral/spectral_source.h"
 
 namespace scotopic::fuzz {
 namespace {

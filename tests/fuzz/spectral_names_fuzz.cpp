@@ -3,8 +3,8 @@
 #include <sstream>
 
 #include "fuzz/target.h"
-#include "image/error.h"
-#include "image/spectral_channels.h"
+#include "base/error.h"
+#include "io/spectral/spectral_channels.h"
 
 namespace scotopic::fuzz {
 

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "fuzz/target.h"
-#include "image/error.h"
-#include "image/spectrum_file.h"
+#include "base/error.h"
+#include "io/spectral/spectrum_file.h"
 
 namespace scotopic::fuzz {
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "appearance/batch.h"
+#include "batch/batch.h"
 #include "support/primaries.h"
 
 int main(int argc, char** argv) {

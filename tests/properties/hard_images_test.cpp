@@ -17,10 +17,10 @@
 #include <string>
 #include <vector>
 
-#include "acuity/filter.h"
-#include "image/apply_image.h"
-#include "image/error.h"
-#include "image/non_finite.h"
+#include "stages/acuity/filter.h"
+#include "pipeline/apply_image.h"
+#include "base/error.h"
+#include "pipeline/non_finite.h"
 #include "properties/regimes.h"
 
 namespace scotopic::test {

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "appearance/stages.h"
+#include "stages/table.h"
 
 namespace scotopic::test {
 

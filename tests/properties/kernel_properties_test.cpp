@@ -4,8 +4,8 @@
 
 #include "adaptation/mesopic.h"
 #include "adaptation/pupil.h"
-#include "appearance/projection.h"
-#include "appearance/reference.h"
+#include "stages/shared/projection.h"
+#include "stages/reference.h"
 #include "kernel/kernel.h"
 #include "properties/pixels.h"
 #include "properties/property.h"

@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "appearance/reference.h"
+#include "stages/reference.h"
 #include "properties/exact_algebra.h"
 #include "properties/mpfr_number.h"
 

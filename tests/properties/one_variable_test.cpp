@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
 
-#include "acuity/cutoff.h"
-#include "acuity/simd-inl.h"
+#include "stages/acuity/cutoff.h"
+#include "stages/acuity/simd-inl.h"
 #include "adaptation/mesopic.h"
 #include "adaptation/pupil.h"
-#include "appearance/batch.h"
-#include "appearance/colour_difference.h"
-#include "appearance/constants.h"
+#include "batch/batch.h"
+#include "stages/shared/colour_difference.h"
+#include "stages/shared/constants.h"
 #include "properties/mpfr_reference.h"
 #include "support/primaries.h"
 

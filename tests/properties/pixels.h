@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "appearance/stages.h"
+#include "stages/table.h"
 #include "properties/property.h"
 #include "support/primaries.h"
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "adaptation/mesopic.h"
-#include "appearance/stages.h"
+#include "stages/table.h"
 #include "support/primaries.h"
 
 namespace scotopic::test {

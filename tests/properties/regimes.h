@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "appearance/batch.h"
-#include "appearance/reference.h"
+#include "batch/batch.h"
+#include "stages/reference.h"
 
 namespace scotopic::test {
 

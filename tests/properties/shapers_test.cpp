@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "bake/axes.h"
-#include "bake/ocio_chain.h"
+#include "looks/lut/axes.h"
+#include "looks/chain/ocio_chain.h"
 #include "properties/one_variable.h"
 
 namespace scotopic::test {

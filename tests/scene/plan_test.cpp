@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <random>
 
-#include "acuity/cutoff.h"
-#include "appearance/colour_difference.h"
-#include "appearance/reference.h"
+#include "stages/acuity/cutoff.h"
+#include "stages/shared/colour_difference.h"
+#include "stages/reference.h"
 #include "support/primaries.h"
 
 namespace scotopic {

@@ -1,0 +1,105 @@
+#include "cli/options/acuity_options.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "stages/acuity/cutoff.h"
+#include "stages/acuity/local.h"
+#include "cli/options/values.h"
+
+namespace scotopic {
+namespace {
+
+const std::vector<std::pair<std::string, AcuitySpace>> spaces = {{"light", AcuitySpace::light},
+                                                                 {"lab", AcuitySpace::lab}};
+const std::vector<std::pair<std::string, AcuityQuality>> qualities = {
+    {"draft", AcuityQuality::draft}, {"normal", AcuityQuality::normal}, {"fine", AcuityQuality::fine}};
+
+const std::vector<std::pair<std::string, std::string>> modes = {
+    {"global", "global"}, {"local", "local"}, {"off", "off"}};
+
+int display_width(const PixelSource& source, const ImageLayout& layout) {
+  return source.pictures()[layout.light.front().index].display.width();
+}
+
+/// Horizontal degrees of a lens by Exif's 35 mm equivalent: the frame is 36 mm wide.
+std::optional<double> camera_field_of_view(const PixelSource& source, const ImageLayout& layout) {
+  for (const Attribute& a : source.attributes(layout.light.front().index)) {
+    if (a.name != "Exif:FocalLengthIn35mmFilm") continue;
+    const double millimetres = std::holds_alternative<int>(a.value)      ? std::get<int>(a.value)
+                               : std::holds_alternative<double>(a.value) ? std::get<double>(a.value)
+                                                                         : 0.0;
+    if (millimetres >= 1.0 && millimetres <= 10000.0)
+      return 2.0 * std::atan(18.0 / millimetres) * 180.0 / std::numbers::pi;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void add_acuity_options(CLI::App& verb, AcuityOptions& o) {
+  const std::string group = "Acuity";
+  const auto add = [&](const char* name, std::string& value, const std::string& text, const char* kind) {
+    verb.add_option(name, value, text)->type_name(kind)->group(group);
+  };
+  verb.add_flag("--acuity{global}", o.acuity,
+                "Take away the detail that the dark-adapted eye does not resolve; --acuity local: less "
+                "around lamps")
+      ->group(group);
+  add("--ppd", o.pixels_per_degree, "Pixels per degree of the viewer's field", "X");
+  add("--fov", o.field_of_view, "Degrees that the picture's width fills of it, instead of --ppd", "DEG");
+  add("--strength-acuity", o.strength, "0 to 1", "X");
+  add("--acuity-space", o.space, "What is averaged: light (default) or lab", "NAME");
+  add("--acuity-range", o.range, "Differences that count as edges, CIELAB (default 15)", "X");
+  add("--acuity-quality", o.quality, "draft, normal (default), fine", "NAME");
+}
+
+AcuityChoice understand(const AcuityOptions& o) {
+  AcuityChoice out;
+  const std::string mode = choice("--acuity", o.acuity, modes);
+  out.asked = mode != "off";
+  out.local = mode == "local";
+  if (!o.pixels_per_degree.empty()) {
+    if (!o.field_of_view.empty()) fail_value("--fov", o.field_of_view, "either --ppd or --fov, not both");
+    out.pixels_per_degree =
+        number_in("--ppd", o.pixels_per_degree, 0.01, 1e5, "pixels per degree, 0.01 to 1e5");
+  }
+  if (!o.field_of_view.empty())
+    out.field_of_view = number_in("--fov", o.field_of_view, 0.01, 179, "degrees, 0.01 to 179");
+  out.parameters.strength = number_in("--strength-acuity", o.strength, 0, 1, "a strength from 0 (off) to 1");
+  out.parameters.range_sigma = number_in("--acuity-range", o.range, 0.1, 1000, "CIELAB units, 0.1 to 1000");
+  out.parameters.space = choice("--acuity-space", o.space, spaces);
+  out.parameters.quality = choice("--acuity-quality", o.quality, qualities);
+  return out;
+}
+
+AngularResolution angular_resolution(const AcuityChoice& choice, const PixelSource& source,
+                                     const ImageLayout& layout) {
+  if (choice.pixels_per_degree) return {*choice.pixels_per_degree, true, "--ppd"};
+  const double width = display_width(source, layout);
+  if (choice.field_of_view) return {pixels_per_degree(width, *choice.field_of_view), true, "--fov"};
+  if (const std::optional<double> camera = camera_field_of_view(source, layout))
+    return {pixels_per_degree(width, *camera), true,
+            fmt::format("the camera's focal length, {:.3g} degrees wide", *camera)};
+  return {60.0, false, "assumed: a pixel is one arc minute; --ppd or --fov tells"};
+}
+
+std::unique_ptr<SpatialFilter> acuity_filter(const AcuityChoice& choice, const AppearanceParameters& scene,
+                                             const AngularResolution& resolution, const Console& console) {
+  AcuityParameters p = choice.parameters;
+  p.strength *= scene.strength.all;
+  const double ppd = resolution.pixels_per_degree, cutoff = acuity_cutoff(scene.adaptation);
+  const std::string known = fmt::format("{:.3g} pixels per degree ({})", ppd, resolution.source);
+  p.sigma = acuity_sigma_pixels(scene.adaptation, ppd);
+  p.white = scene.adaptation / 0.18 / scene.white_luminance;
+  p.xyz_from_rgb = scene.xyz_from_rgb;
+  console.note(fmt::format("acuity: {:.3g} cycles/degree are resolved, sigma {}{:.3g} pixels; {}", cutoff,
+                           choice.local ? "up to " : "", p.sigma, known));
+  if (!choice.local) return std::make_unique<AcuityFilter>(p);
+  return std::make_unique<LocalAcuityFilter>(
+      LocalAcuityParameters{p, scene.adaptation, scene.white_luminance, ppd});
+}
+
+}  // namespace scotopic

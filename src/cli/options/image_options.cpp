@@ -1,0 +1,70 @@
+#include "cli/options/image_options.h"
+
+#include "cli/options/values.h"
+
+namespace scotopic {
+
+namespace {
+
+void add_limit(CLI::App& verb, const char* name, std::int64_t& value, const char* text) {
+  verb.add_option(name, value, text)->check(CLI::PositiveNumber)->group("Limits")->capture_default_str();
+}
+
+}  // namespace
+
+void add_config_limits(CLI::App& verb, Limits& limits) {
+  add_limit(verb, "--max-config-size", limits.config, "Bytes of a config");
+  add_limit(verb, "--max-lut-size", limits.lut, "Bytes of a LUT");
+}
+
+void add_input_options(CLI::App& verb, ImageOptions& o) {
+  const auto add = [&](const char* name, std::string& value, const char* text, const char* kind) {
+    verb.add_option(name, value, text)->type_name(kind)->group("Input");
+  };
+  add("--config", o.config, "OpenColorIO config; else $OCIO, else the program's own", "FILE");
+  add("--colorspace", o.colourspace,
+      "Of the input; else the file's chromaticities, else the config's file rules", "NAME");
+  add("--layer", o.layer, "Which layer or part holds the colour", "NAME");
+  const auto limit = [&](const char* name, std::int64_t& value, const char* text) {
+    add_limit(verb, name, value, text);
+  };
+  limit("--max-side", o.limits.side, "Pixels of a row or column");
+  limit("--max-pixels", o.limits.pixels, "Pixels of a picture");
+  limit("--max-channels", o.limits.channels, "Channels of a picture");
+  limit("--max-bands", o.limits.bands, "Bands of a spectrum");
+  limit("--max-memory", o.limits.memory, "Bytes planned for pixels on their way");
+  add_config_limits(verb, o.limits);
+}
+
+void add_output_options(CLI::App& verb, ImageOptions& o) {
+  const auto add = [&](const char* name, std::string& value, const char* text, const char* kind) {
+    verb.add_option(name, value, text)->type_name(kind)->group("Output");
+  };
+  add("--output-colorspace", o.output_colourspace,
+      "Of the output; else the input's, or what its file type calls for", "NAME");
+  add("-d", o.type, "Type of colour channels: half, float, uint8, uint16; else the input's", "TYPE");
+  add("--exposure", o.exposure, "Applied to the result, not to the scene: value 1 then stands for less light",
+      "EV");
+}
+
+ImageRequest understand(const ImageOptions& o) {
+  ImageRequest out;
+  out.layer = o.layer;
+  if (!o.colourspace.empty()) out.colourspace = o.colourspace;
+  if (!o.output_colourspace.empty()) out.output_colourspace = o.output_colourspace;
+  if (!o.type.empty())
+    out.type = choice<PixelType>("-d", o.type,
+                                 {{"half", PixelType::half},
+                                  {"float", PixelType::float32},
+                                  {"uint8", PixelType::uint8},
+                                  {"uint16", PixelType::uint16}});
+  out.exposure = number_in("--exposure", o.exposure, -64, 64, "a number of EV from -64 to 64");
+  return out;
+}
+
+void check_spaces(const ImageRequest& request, const ColourConfig& config) {
+  if (request.colourspace) (void)config.resolve(*request.colourspace);
+  if (request.output_colourspace) (void)config.resolve(*request.output_colourspace);
+}
+
+}  // namespace scotopic

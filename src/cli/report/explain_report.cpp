@@ -1,0 +1,140 @@
+#include "cli/report/explain_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "adaptation/mesopic.h"
+#include "batch/batch.h"
+
+namespace scotopic {
+namespace {
+
+constexpr int lowest_octave = -60;
+constexpr int octaves = 120;
+
+// Median of a few runs over all samples, ns per pixel.
+double time_of(const AppearanceParameters& parameters, const SceneStatistics& s) {
+  const AppearanceBatch batch(parameters);
+  const std::size_t count = s.samples.size() / 3;
+  std::vector<float> planes[3], work[3];
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < count; ++i) planes[c].push_back(s.samples[3 * i + c]);
+  std::vector<double> times;
+  for (int run = 0; run < 15; ++run) {
+    for (std::size_t c = 0; c < 3; ++c) work[c] = planes[c];
+    const auto start = std::chrono::steady_clock::now();
+    batch.apply({work[0].data(), work[1].data(), work[2].data(), nullptr, nullptr, nullptr, nullptr, count});
+    times.push_back(std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count());
+  }
+  std::nth_element(times.begin(), times.begin() + 7, times.end());
+  return times[7] / static_cast<double>(count);
+}
+
+std::string bar(double share, double greatest, int width) {
+  const int length = greatest > 0 ? static_cast<int>(std::lround(share / greatest * width)) : 0;
+  return std::string(static_cast<std::size_t>(share > 0 ? std::max(1, length) : 0), '#');
+}
+
+std::string_view verdict(const EffectDecision& d) {
+  if (!d.simulated) return "-";
+  if (!d.asked) return "off";
+  return d.needed ? "yes" : "no";
+}
+
+}  // namespace
+
+std::vector<double> measure_costs(const PlanRequest& asked, const ScenePlan& plan, const SceneStatistics& s) {
+  std::vector<double> costs(plan.effects.size());
+  if (s.samples.size() < 3 * 256) return costs;
+  const double whole = time_of(asked.parameters, s);
+  for (std::size_t i = 0; i < plan.effects.size(); ++i) {
+    const EffectDecision& d = plan.effects[i];
+    AppearanceParameters without = asked.parameters;
+    if (d.effect == "shift") without.strength.shift = 0;
+    else if (d.effect == "luminance") without.luminance = LuminancePolicy::none;
+    else if (d.effect == "chroma") without.strength.chroma = 0;
+    else continue;
+    if (d.runs()) costs[i] = std::max(0.0, whole - time_of(without, s));
+  }
+  return costs;
+}
+
+std::vector<LuminanceBar> luminance_bars(const SceneStatistics& s, double white_luminance) {
+  // Octaves of image values, labelled in cd/m2: exact whatever the unit.
+  const std::vector<std::uint64_t> counts = s.photopic.octaves(lowest_octave, octaves);
+  const auto lit = [](std::uint64_t n) { return n > 0; };
+  const auto first = std::find_if(counts.begin(), counts.end(), lit);
+  const auto last = std::find_if(counts.rbegin(), counts.rend(), lit).base();
+  std::vector<LuminanceBar> bars;
+  for (auto it = first; it < last; ++it)
+    bars.push_back({white_luminance * std::ldexp(1.0, lowest_octave + static_cast<int>(it - counts.begin())),
+                    static_cast<double>(*it) / static_cast<double>(s.finite())});
+  return bars;
+}
+
+double dark_share(const SceneStatistics& s) {
+  return s.finite() ? static_cast<double>(s.photopic.dark()) / static_cast<double>(s.finite()) : 0;
+}
+
+std::string luminance_text(const SceneStatistics& s, double white_luminance) {
+  const std::vector<LuminanceBar> bars = luminance_bars(s, white_luminance);
+  double greatest = dark_share(s);
+  for (const LuminanceBar& b : bars) greatest = std::max(greatest, b.share);
+  std::string text = "luminance, cd/m2     share of pixels\n";
+  if (dark_share(s) > 0) text += fmt::format("  {:<18} {:5.1f} % {}\n", "0 or below", 100 * dark_share(s), bar(dark_share(s), greatest, 40));
+  for (const LuminanceBar& b : bars)
+    text += fmt::format("  {:<18} {:5.1f} % {}\n", fmt::format("{:.2g} to {:.2g}", b.from, 2 * b.from), 100 * b.share,
+                        bar(b.share, greatest, 40));
+  return text;
+}
+
+std::string effects_text(const ScenePlan& plan, const std::vector<double>& costs) {
+  std::string text = "effect     needed  pixels  dE00 max  ns/px  why\n";
+  for (std::size_t i = 0; i < plan.effects.size(); ++i) {
+    const EffectDecision& d = plan.effects[i];
+    const auto number = [&](bool shown, const std::string& value) { return d.simulated && shown ? value : std::string("-"); };
+    text += fmt::format("{:<10} {:<7} {:>6} {:>9} {:>6}  {}\n", d.effect, verdict(d),
+                        number(true, fmt::format("{:.0f} %", 100 * d.share)),
+                        number(d.difference > 0, fmt::format("{:.3g}", d.difference)),
+                        number(costs[i] > 0, fmt::format("{:.1f}", costs[i])), d.reason);
+  }
+  return text;
+}
+
+std::string luminance_svg(const SceneStatistics& s, double white_luminance, double adaptation) {
+  const std::vector<LuminanceBar> bars = luminance_bars(s, white_luminance);
+  constexpr double width = 720, height = 300, left = 20, top = 20, floor_y = 250;
+  const double low = bars.empty() ? adaptation / 2 : std::min(bars.front().from, adaptation / 2);
+  const double high = bars.empty() ? adaptation * 2 : std::max(2 * bars.back().from, adaptation * 2);
+  const auto x = [&](double luminance) {
+    const double at = std::log(std::clamp(luminance, low, high) / low) / std::log(high / low);
+    return left + (width - 2 * left) * at;
+  };
+  double greatest = 0;
+  for (const LuminanceBar& b : bars) greatest = std::max(greatest, b.share);
+  std::string svg = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
+                                "font-family=\"sans-serif\" font-size=\"11\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
+                                width, height);
+  const double mesopic_from = x(mesopic_scotopic_limit()), mesopic_to = x(mesopic_photopic_limit());
+  svg += fmt::format("<rect x=\"{:.1f}\" y=\"{}\" width=\"{:.1f}\" height=\"{}\" fill=\"#dde4f5\"/>\n<text x=\"{:.1f}\" y=\"{}\">mesopic</text>\n",
+                     mesopic_from, top, mesopic_to - mesopic_from, floor_y - top, mesopic_from + 4, top + 12);
+  for (const LuminanceBar& b : bars) {
+    const double tall = (floor_y - top - 20) * b.share / greatest;
+    svg += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#405080\"/>\n", x(b.from),
+                       floor_y - tall, std::max(1.0, x(2 * b.from) - x(b.from) - 1), tall);
+  }
+  for (int e = static_cast<int>(std::ceil(std::log10(low))); e <= std::floor(std::log10(high)); ++e)
+    svg += fmt::format("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\" stroke=\"#000\"/>\n<text x=\"{0:.1f}\" y=\"{3}\" text-anchor=\"middle\">1e{4}</text>\n",
+                       x(std::pow(10.0, e)), floor_y, floor_y + 5, floor_y + 18, e);
+  svg += fmt::format("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\" stroke=\"#c03030\" stroke-width=\"2\"/>\n"
+                     "<text x=\"{3:.1f}\" y=\"{4}\" fill=\"#c03030\">adapted to {5:.3g}</text>\n",
+                     x(adaptation), top, floor_y, x(adaptation) + 4, top + 26, adaptation);
+  svg += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">luminance, cd/m2, an octave a bar; share of pixels</text>\n</svg>\n",
+                     width / 2, height - 12);
+  return svg;
+}
+
+}  // namespace scotopic

@@ -1,0 +1,32 @@
+// The table of `scotopic time` in the forms it is asked for.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "looks/verify/way_table.h"
+
+namespace scotopic {
+
+/// What the numbers hold for.
+struct TimeConditions {
+  std::string machine;  ///< processor and vector instructions
+  std::string ocio;     ///< version
+  std::string picture;
+  std::string colours;  ///< what errors were measured over
+  std::size_t pixels = 0;
+  int rounds = 0;
+  double load = 0;  ///< the system's, over the last minute
+};
+
+std::string time_text(const std::vector<WayRow>& rows, const TimeConditions& conditions);
+/// One header, one row a way; numbers with a point, whatever the locale.
+std::string time_csv(const std::vector<WayRow>& rows);
+nlohmann::ordered_json time_json(const std::vector<WayRow>& rows, const TimeConditions& conditions);
+
+/// Greatest CIEDE2000 against time, both logarithmic, of the rows of one group that have an error above 0;
+/// the front joined by a line, dominated ways hollow. SVG, the same bytes for the same rows.
+std::string pareto_svg(const std::vector<WayRow>& rows, const std::string& group, const std::string& caption);
+
+}  // namespace scotopic

@@ -1,0 +1,161 @@
+// scotopic explain: what light a scene holds, and what it calls for.
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "adaptation/mesopic.h"
+#include "cli/verbs/explain_config.h"
+#include "cli/verbs/explain_frames.h"
+#include "cli/report/explain_report.h"
+#include "cli/report/non_finite_report.h"
+#include "cli/program.h"
+#include "cli/scene/scene_plan.h"
+#include "cli/scene/scene_settings.h"
+#include "io/atomic/output_file.h"
+
+namespace scotopic {
+namespace {
+
+struct ExplainOptions {
+  std::string input;
+  SceneOptions scene;
+  FrameOptions frames;
+  std::string plot;
+  CommonOptions common;
+};
+
+/// Luminances in cd/m2.
+struct LightNumbers {
+  double log_average, mean, least, greatest;
+  double scotopic_mean;
+  double sp_ratio;
+  double m;        ///< mesopic adaptation coefficient at La, of this light
+  double mesopic;  ///< luminance that MES2 gives the mean light at that m
+};
+
+LightNumbers light_of(const SceneStatistics& s, const SceneNumbers& numbers) {
+  const double unit = numbers.white_luminance;
+  const double sp = s.sp_ratio();
+  const double m = mesopic_coefficient(numbers.adaptation, sp);
+  return {unit * s.log_mean_luminance(),
+          unit * s.mean_photopic(),
+          unit * static_cast<double>(s.least),
+          unit * static_cast<double>(s.greatest),
+          unit * s.mean_scotopic(),
+          sp,
+          m,
+          mesopic_luminance(unit * s.mean_photopic(), unit * s.mean_scotopic(), m)};
+}
+
+void print(const LightNumbers& light, const SceneNumbers& numbers, const SceneStatistics& statistics,
+           const ScenePlan& plan, const std::vector<double>& costs) {
+  fmt::print("{}\n", describe(numbers));
+  fmt::print("photopic luminance   {:.4g} cd/m2 log-average, {:.4g} mean, {:.4g} to {:.4g}\n",
+             light.log_average, light.mean, light.least, light.greatest);
+  fmt::print("scotopic luminance   {:.4g} cd/m2 mean\n", light.scotopic_mean);
+  fmt::print("S/P ratio            {:.4g}\n", light.sp_ratio);
+  fmt::print("mesopic luminance    {:.4g} cd/m2 of the mean, coefficient m {:.4g} (1 photopic, 0 scotopic)\n",
+             light.mesopic, light.m);
+  fmt::print("\n{}\n{}", luminance_text(statistics, numbers.white_luminance), effects_text(plan, costs));
+}
+
+nlohmann::ordered_json result_of(const ExplainOptions& options, const LightNumbers& light,
+                                 const SceneNumbers& numbers, const SceneStatistics& statistics,
+                                 const ScenePlan& plan, const std::vector<double>& costs,
+                                 const PixelSource& source) {
+  nlohmann::ordered_json out;
+  out["input"] = options.input;
+  out["adaptation"] = numbers.adaptation;
+  out["adaptationSource"] = numbers.adaptation_source;
+  out["whiteLuminance"] = numbers.white_luminance;
+  out["whiteLuminanceSource"] = numbers.white_luminance_source;
+  out["photopic"] = {{"logAverage", light.log_average},
+                     {"mean", light.mean},
+                     {"least", light.least},
+                     {"greatest", light.greatest}};
+  out["scotopic"] = {{"mean", light.scotopic_mean}};
+  out["spRatio"] = light.sp_ratio;
+  out["mesopicCoefficient"] = light.m;
+  out["nonFinite"] = statistics.non_finite;
+  out["spectral"] = spectral_report(source);
+  out["mesopic"] = {{"mean", light.mesopic}};
+  out["effects"] = plan_json(plan);
+  for (std::size_t i = 0; i < plan.effects.size(); ++i)
+    out["effects"][std::string(plan.effects[i].effect)]["nsPerPixel"] = costs[i];
+  for (const LuminanceBar& bar : luminance_bars(statistics, numbers.white_luminance))
+    out["histogram"].push_back({{"from", bar.from}, {"to", 2 * bar.from}, {"share", bar.share}});
+  out["darkShare"] = dark_share(statistics);
+  return out;
+}
+
+bool is_config(const std::string& file) { return file.size() > 5 && file.rfind(".ocio") == file.size() - 5; }
+
+int run_explain_config(const ExplainOptions& options, const Console& console) {
+  nlohmann::ordered_json looks = nlohmann::ordered_json::array();
+  for (const ExplainedLook& look : explain_looks(ColourConfig::from_file(options.input, options.scene.image.limits))) {
+    if (!console.json()) fmt::print("{}\n  does {}\n", look.name, look.does);
+    if (!console.json() && !look.description.empty()) fmt::print("  {}\n", look.description);
+    looks.push_back({{"name", look.name}, {"does", look.does}, {"description", look.description}});
+  }
+  console.result({{"input", options.input}, {"looks", looks}});
+  return static_cast<int>(ExitCode::done);
+}
+
+int run_explain_image(const ExplainOptions& options, const SceneSettings& settings, std::optional<OutputFile>& plot,
+                      const Console& console) {
+  // Nothing is written: the layout only says where the light is.
+  Scene scene = open_scene(settings, options.input, "none.exr", console);
+  const MeteredScene metered = meter(scene, settings, true);
+  const SceneStatistics& statistics = *metered.statistics;
+  const SceneNumbers& numbers = metered.numbers;
+  OperatorChoice choice = settings.choice;
+  choice.parameters.adaptation = numbers.adaptation;
+  choice.parameters.white_luminance = numbers.white_luminance;
+  const PlanRequest request =
+      plan_request(choice, settings.acuity, angular_resolution(settings.acuity, *scene.source, scene.layout));
+  const ScenePlan plan = plan_of(choice, request, &statistics);
+  const std::vector<double> costs = measure_costs(request, plan, statistics);
+  const LightNumbers light = light_of(statistics, numbers);
+  if (plot) write_text(*plot, luminance_svg(statistics, numbers.white_luminance, numbers.adaptation));
+  if (!console.json()) print(light, numbers, statistics, plan, costs);
+  report_non_finite(statistics.non_finite, "in none of these numbers", *scene.source, scene.layout, settings.config, console);
+  console.result(result_of(options, light, numbers, statistics, plan, costs, *scene.source));
+  return static_cast<int>(ExitCode::done);
+}
+
+int run_explain(const ExplainOptions& options) {
+  const Console console(options.common);
+  if (is_config(options.input)) return run_explain_config(options, console);
+  const std::vector<Frame> frames = frames_of(options.frames, options.input, "");
+  const SceneSettings settings(options.scene, options.common.threads);
+  check_places(frames, options.frames);
+  std::optional<OutputFile> plot;
+  if (!options.plot.empty()) plot.emplace(options.plot);
+  if (!frames.front().number) return run_explain_image(options, settings, plot, console);
+  return explain_frames(settings, frames, options.frames, plot, console);
+}
+
+}  // namespace
+
+void add_explain(CLI::App& program, Invocation& invocation) {
+  const auto options = std::make_shared<ExplainOptions>();
+  CLI::App& verb = *program.add_subcommand("explain", "What light a scene holds, and what it calls for");
+  verb.footer("Examples:\n"
+      "  scotopic explain night.exr --white-luminance 10\n"
+      "  scotopic explain in.####.exr --frames 1-240 --white-luminance 10 --plot shot.svg\n"
+      "  scotopic explain ocio_config/config.ocio");
+  verb.add_option("input", options->input, "As for apply; or an OCIO config (.ocio): what its looks do")
+      ->required()
+      ->type_name("IN|CONFIG");
+  add_operator_options(verb, options->scene.appearance);
+  add_reading_frame_options(verb, options->frames);
+  add_band_options(verb, options->scene.bands);
+  add_acuity_options(verb, options->scene.acuity);
+  add_input_options(verb, options->scene.image);
+  verb.add_option("--plot", options->plot, "The luminance histogram, or a sequence's adaptation, as an SVG file")
+      ->type_name("FILE");
+  add_common_options(verb, options->common);
+  on_command_line(verb, invocation, options, run_explain);
+}
+
+}  // namespace scotopic

@@ -1,0 +1,167 @@
+#include "cli/verbs/explain_frames.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "cli/sequence/in_order.h"
+#include "cli/sequence/progress_line.h"
+#include "cli/sequence/run_frames.h"
+#include "cli/scene/scene_plan.h"
+#include "cli/sequence/shot.h"
+
+namespace scotopic {
+namespace {
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text.empty() ? "nothing" : text;
+}
+
+std::vector<std::string> running(const ScenePlan& plan) {
+  std::vector<std::string> effects;
+  for (const EffectDecision& d : plan.effects)
+    if (d.simulated && d.asked && d.runs()) effects.emplace_back(d.effect);
+  return effects;
+}
+
+ScenePlan plan_for(const SceneSettings& settings, const SceneNumbers& numbers, const AngularResolution& resolution,
+                   const SceneStatistics* statistics) {
+  OperatorChoice choice = settings.choice;
+  choice.parameters.adaptation = numbers.adaptation;
+  choice.parameters.white_luminance = numbers.white_luminance;
+  return plan_of(choice, plan_request(choice, settings.acuity, resolution), statistics);
+}
+
+/// What is kept of a frame, or why there is nothing.
+struct Metered {
+  FrameLight light;
+  AngularResolution resolution;
+  std::optional<Error> failure;
+  std::vector<std::string> notes;
+};
+
+void meter_one(const SceneSettings& settings, const Frame& frame, const Console& console, Metered& out) {
+  Scene scene = open_scene(settings, frame.paths.input, "none.exr", console);
+  const MeteredScene metered = meter(scene, settings, true);
+  out.resolution = angular_resolution(settings.acuity, *scene.source, scene.layout);
+  out.light = {*frame.number, frame.paths.input, metered.numbers, metered.statistics->sp_ratio(),
+               running(plan_for(settings, metered.numbers, out.resolution, &*metered.statistics))};
+}
+
+std::vector<Metered> meter_all(const SceneSettings& settings, const std::vector<Frame>& frames,
+                               const FrameOptions& options, const Console& console) {
+  std::vector<Metered> all(frames.size());
+  ProgressLine line(console, "frames", static_cast<std::int64_t>(frames.size()), ProgressLine::Log::lines);
+  SaidOnce said;
+  const auto work = [&](std::size_t i) {
+    const Console notes(console.options(), [&](const std::string& text) { all[i].notes.push_back(text); });
+    try {
+      meter_one(settings, frames[i], notes, all[i]);
+    } catch (...) {
+      all[i].failure = error_of(std::current_exception());
+    }
+  };
+  in_order(frames.size(), options.at_once, work, [&](std::size_t i) {
+    said.say(console, frames[i].paths, all[i].notes);
+    line.at(static_cast<std::int64_t>(i + 1));
+    return !all[i].failure || options.continue_on_error;
+  });
+  return all;
+}
+
+void print(const std::vector<FrameLight>& frames, const ShotLight& shot, const std::vector<std::string>& effects,
+           const std::vector<PlanChange>& changes) {
+  constexpr int width = 30;
+  const double span = std::log(shot.greatest / shot.least);
+  fmt::print("   frame   La, cd/m2    S/P  {:<{}}  calls for\n", "", width);
+  for (const FrameLight& f : frames) {
+    const double share = span > 0 ? std::log(f.numbers.adaptation / shot.least) / span : 1;
+    const auto bar = static_cast<std::size_t>(1 + std::lround(share * (width - 1)));
+    fmt::print("{:>8} {:>11.4g} {:>6.3g}  {:<{}}  {}\n", f.frame, f.numbers.adaptation, f.sp_ratio, std::string(bar, '#'),
+               width, joined(f.effects));
+  }
+  for (const PlanChange& c : changes)
+    fmt::print("from frame {} on: {}{}{}\n", c.frame, c.begins.empty() ? "" : "with " + joined(c.begins),
+               c.begins.empty() || c.ends.empty() ? "" : ", ", c.ends.empty() ? "" : "without " + joined(c.ends));
+  if (changes.empty()) fmt::print("all frames call for the same\n");
+  fmt::print("the shot, as --adaptation-from frames takes it: {:.4g} cd/m2 (median of {} frames, {:.4g} to {:.4g}): {}\n",
+             shot.median, shot.frames, shot.least, shot.greatest, joined(effects));
+}
+
+nlohmann::ordered_json result_of(const std::vector<FrameLight>& frames, const ShotLight& shot,
+                                 const std::vector<std::string>& effects, const std::vector<PlanChange>& changes) {
+  nlohmann::ordered_json out;
+  out["shot"] = shot_json(shot);
+  out["shot"]["effects"] = effects;
+  out["changes"] = nlohmann::ordered_json::array();
+  for (const PlanChange& c : changes)
+    out["changes"].push_back({{"frame", c.frame}, {"begins", c.begins}, {"ends", c.ends}});
+  for (const FrameLight& f : frames)
+    out["frames"].push_back({{"frame", f.frame},
+                             {"input", f.input},
+                             {"adaptation", f.numbers.adaptation},
+                             {"adaptationSource", f.numbers.adaptation_source},
+                             {"whiteLuminance", f.numbers.white_luminance},
+                             {"whiteLuminanceSource", f.numbers.white_luminance_source},
+                             {"spRatio", f.sp_ratio},
+                             {"effects", f.effects}});
+  return out;
+}
+
+}  // namespace
+
+std::vector<PlanChange> plan_changes(const std::vector<FrameLight>& frames) {
+  const auto without = [](const std::vector<std::string>& a, const std::vector<std::string>& b) {
+    std::vector<std::string> rest;
+    for (const std::string& word : a)
+      if (std::find(b.begin(), b.end(), word) == b.end()) rest.push_back(word);
+    return rest;
+  };
+  std::vector<PlanChange> changes;
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    const std::vector<std::string>&before = frames[i - 1].effects, &now = frames[i].effects;
+    if (before != now) changes.push_back({frames[i].frame, without(now, before), without(before, now)});
+  }
+  return changes;
+}
+
+int explain_frames(const SceneSettings& settings, const std::vector<Frame>& frames, const FrameOptions& options,
+                   std::optional<OutputFile>& plot, const Console& console) {
+  std::vector<FrameLight> lights;
+  std::vector<double> adaptations;
+  std::optional<Error> failure;
+  std::optional<AngularResolution> resolution;
+  for (Metered& m : meter_all(settings, frames, options, console)) {
+    if (m.failure) {
+      if (!options.continue_on_error) throw *m.failure;
+      (void)report(*m.failure, console.json());
+      if (!failure) failure = m.failure;
+      continue;
+    }
+    if (!resolution) resolution = m.resolution;
+    adaptations.push_back(m.light.numbers.adaptation);
+    lights.push_back(std::move(m.light));
+  }
+  if (lights.empty()) return static_cast<int>(failure->code());
+  const ShotLight shot = shot_light(adaptations);
+  SceneNumbers of_shot = lights.front().numbers;
+  of_shot.adaptation = shot.median;
+  // As apply has it, which then looks at no frame's statistics.
+  const std::vector<std::string> effects = running(plan_for(settings, of_shot, *resolution, nullptr));
+  const std::vector<PlanChange> changes = plan_changes(lights);
+  if (plot) write_text(*plot, adaptation_svg(lights, shot.median, changes));
+  if (!console.json()) print(lights, shot, effects, changes);
+  console.result(result_of(lights, shot, effects, changes));
+  return static_cast<int>(failure ? failure->code() : ExitCode::done);
+}
+
+void write_text(OutputFile& file, const std::string& text) {
+  (void)file.write(text.data(), text.size());
+  file.commit();
+}
+
+}  // namespace scotopic

@@ -1,0 +1,305 @@
+#include "color/colour_config.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <mutex>
+#include <new>
+
+#include "color/base_config.h"
+#include "base/error.h"
+#include "base/input_file.h"
+#include "color/lut_files.h"
+#include "base/names.h"
+
+namespace OCIO = OCIO_NAMESPACE;
+
+namespace scotopic {
+namespace {
+
+// Lossless optimisations only: the others trade exactness of log, exp and LUTs for speed.
+constexpr OCIO::OptimizationFlags optimisation = OCIO::OPTIMIZATION_LOSSLESS;
+
+// While it makes a processor OpenColorIO 2.1 reads its environment into one string, whichever thread it is.
+std::mutex making_processors;
+
+// OCIO computes in float: what it does to a vector differs from a matrix by no more than this.
+constexpr double linear_tolerance = 1e-5;
+
+/// OCIO's messages hold line breaks; ours are one line.
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+  const std::size_t end = text.find_last_not_of(" .");
+  return end == std::string::npos ? "" : text.substr(0, end + 1);
+}
+
+/// Warnings would come on stderr between our own lines.
+void silence_ocio() { OCIO::SetLoggingLevel(OCIO::LOGGING_LEVEL_NONE); }
+
+/// Of light that every space has; matrices and LUTs of NaN or infinities show there.
+bool keeps_finite(const OCIO::CPUProcessor& processor) {
+  for (const std::array<float, 3>& colour : {std::array{.18f, .18f, .18f}, {1.f, .5f, .25f}, {.25f, 1.f, .5f}}) {
+    std::array<float, 3> rgb = colour;
+    processor.applyRGB(rgb.data());
+    if (!std::isfinite(rgb[0] + rgb[1] + rgb[2])) return false;
+  }
+  return true;
+}
+
+bool near(const Vec3<double>& a, const Vec3<double>& b, double scale) {
+  for (std::size_t i = 0; i < 3; ++i)
+    if (!(std::abs(a[i] - b[i]) <= linear_tolerance * scale)) return false;
+  return true;
+}
+
+}  // namespace
+
+RowConverter::RowConverter(const Matrix3<double>& matrix) : matrix_(matrix) {}
+
+RowConverter::RowConverter(OCIO::ConstCPUProcessorRcPtr processor)
+    : processor_(processor && !processor->isNoOp() ? std::move(processor) : nullptr) {}
+
+RowConverter::RowConverter(std::shared_ptr<const IccProfile> profile, const Matrix3<double>& xyz_from_rgb)
+    : matrix_(xyz_from_rgb), profile_(std::move(profile)) {}
+
+void RowConverter::apply(float* r, float* g, float* b, std::size_t count) const {
+  if (profile_) {
+    profile_->apply(*matrix_, r, g, b, count);
+  } else if (matrix_) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3<double> p = *matrix_ * Vec3<double>{r[i], g[i], b[i]};
+      r[i] = static_cast<float>(p[0]);
+      g[i] = static_cast<float>(p[1]);
+      b[i] = static_cast<float>(p[2]);
+    }
+  } else if (processor_ && count > 0) {
+    OCIO::PlanarImageDesc row(r, g, b, nullptr, static_cast<long>(count), 1);
+    processor_->apply(row);
+  }
+}
+
+ColourConfig::ColourConfig(OCIO::ConstConfigRcPtr config, std::string file, const Limits& limits)
+    : config_(std::move(config)), file_(std::move(file)), limits_(limits) {
+  try {
+    config_->validate();
+  } catch (const OCIO::Exception& e) {
+    fail(one_line(e.what()));
+  }
+  const OCIO::ConstColorSpaceRcPtr working = config_->getColorSpace(OCIO::ROLE_SCENE_LINEAR);
+  if (!working) fail("the config has no role scene_linear, so there is no space to work in");
+  working_space_ = working->getName();
+  find_xyz();
+}
+
+ColourConfig ColourConfig::own() {
+  silence_ocio();
+  return ColourConfig(make_base_config(), "", {});
+}
+
+ColourConfig ColourConfig::from_file(const std::string& file, const Limits& limits) {
+  silence_ocio();
+  // Younger OpenColorIO takes names of configs that it brings itself.
+  if (file.rfind("ocio://", 0) != 0) (void)check_input_file(file, ExitCode::config, limits.config, "--max-config-size");
+  OCIO::ConstConfigRcPtr config;
+  try {
+    config = OCIO::Config::CreateFromFile(file.c_str());
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw Error(ExitCode::config, file, "not a colour config that can be read: " + one_line(e.what()));
+  }
+  return ColourConfig(std::move(config), file, limits);
+}
+
+ColourConfig ColourConfig::in_force(const std::string& file, const Limits& limits) {
+  if (!file.empty()) return from_file(file, limits);
+  const char* environment = std::getenv("OCIO");
+  return environment && *environment ? from_file(environment, limits) : own();
+}
+
+void ColourConfig::fail(const std::string& what) const { throw Error(ExitCode::config, file_, what); }
+
+OCIO::ConstCPUProcessorRcPtr ColourConfig::processor(const std::string& from, const std::string& to) const {
+  const OCIO::ColorSpaceTransformRcPtr both = OCIO::ColorSpaceTransform::Create();
+  both->setSrc(from.c_str());
+  both->setDst(to.c_str());
+  check_lut_files(config_, both, limits_);
+  try {
+    const std::lock_guard lock(making_processors);
+    const OCIO::ConstProcessorRcPtr way = config_->getProcessor(from.c_str(), to.c_str());
+    require_usable_luts(way, file_);
+    const OCIO::ConstCPUProcessorRcPtr out =
+        way->getOptimizedCPUProcessor(OCIO::BIT_DEPTH_F32, OCIO::BIT_DEPTH_F32, optimisation);
+    if (!keeps_finite(*out)) fail("from colour space '" + from + "' to '" + to + "' colours are no numbers any more");
+    return out;
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& e) {
+    fail("no way from colour space '" + from + "' to '" + to + "': " + one_line(e.what()));
+  }
+}
+
+/// The matrix a processor is, found with unit vectors; nullopt where it is not linear (a tone map, say).
+std::optional<Matrix3<double>> ColourConfig::linear_matrix(const std::string& from,
+                                                           const std::string& to) const {
+  const OCIO::ConstCPUProcessorRcPtr convert = processor(from, to);
+  const auto image_of = [&](Vec3<double> v) {
+    float rgb[3] = {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+    convert->applyRGB(rgb);
+    return Vec3<double>{rgb[0], rgb[1], rgb[2]};
+  };
+  const Matrix3<double> m =
+      transpose(Matrix3<double>{{image_of({1, 0, 0}), image_of({0, 1, 0}), image_of({0, 0, 1})}});
+  const double size = std::max({std::abs(m[0][0]), std::abs(m[1][1]), std::abs(m[2][2])});
+  for (const Vec3<double>& probe : {Vec3<double>{0, 0, 0}, {.18, .18, .18}, {16, 2, .25}, {-.5, 4, 64}}) {
+    const double scale = size * std::max({1e-3, std::abs(probe[0]), std::abs(probe[1]), std::abs(probe[2])});
+    if (!near(image_of(probe), m * probe, scale)) return std::nullopt;
+  }
+  return m;
+}
+
+/// Scene-referred ways first: the way to a display space goes through a view, which may be a tone map.
+void ColourConfig::find_xyz() {
+  std::optional<Matrix3<double>> xyz;
+  if (config_->hasRole("aces_interchange")) {
+    const std::optional<Matrix3<double>> ap0 = linear_matrix(working_space_, "aces_interchange");
+    if (ap0) xyz = gamut_xyz_matrix("ap0").value() * *ap0;
+  }
+  for (const char* name : {"cie_xyz_d65_interchange", "CIE XYZ-D65", "XYZ"})
+    if (!xyz && has_space(name)) xyz = linear_matrix(working_space_, name);
+  if (!xyz)
+    fail("no linear way from '" + working_space_ +
+         "' to CIE XYZ: the config needs the role aces_interchange or cie_xyz_d65_interchange");
+  if (!(std::abs(determinant(*xyz)) > 1e-6)) fail("'" + working_space_ + "' to CIE XYZ cannot be inverted");
+  const NamedPrimaries* known = match_matrix(*xyz);
+  working_gamut_ = known ? std::string(known->name) : "";
+  xyz_from_working_ = known ? xyz_d65_from_rgb(known->primaries) : *xyz;
+}
+
+bool ColourConfig::has_space(const std::string& name) const {
+  return config_->getColorSpace(name.c_str()) != nullptr;
+}
+
+std::vector<std::string> ColourConfig::names() const {
+  std::vector<std::string> out;
+  for (int i = 0; i < config_->getNumColorSpaces(OCIO::SEARCH_REFERENCE_SPACE_ALL, OCIO::COLORSPACE_ALL);
+       ++i) {
+    const char* name =
+        config_->getColorSpaceNameByIndex(OCIO::SEARCH_REFERENCE_SPACE_ALL, OCIO::COLORSPACE_ALL, i);
+    out.emplace_back(name);
+    const OCIO::ConstColorSpaceRcPtr space = config_->getColorSpace(name);
+    for (std::size_t a = 0; space && a < space->getNumAliases(); ++a) out.emplace_back(space->getAlias(a));
+  }
+  for (int i = 0; i < config_->getNumRoles(); ++i) out.emplace_back(config_->getRoleName(i));
+  return out;
+}
+
+std::string ColourConfig::resolve(const std::string& name) const {
+  const OCIO::ConstColorSpaceRcPtr space = config_->getColorSpace(name.c_str());
+  if (!space) fail("unknown colour space '" + name + "'" + did_you_mean(name, names()));
+  return space->getName();
+}
+
+ColourSpace ColourConfig::space_of_file(const std::string& file, bool integer) const {
+  std::string rule_space = config_->getColorSpaceFromFilepath(file.c_str());
+  if (integer && config_->filepathOnlyMatchesDefaultRule(file.c_str()) && config_->hasRole("default_byte"))
+    rule_space = "default_byte";
+  return has_space(rule_space) ? space(rule_space) : space(OCIO::ROLE_SCENE_LINEAR);
+}
+
+std::vector<std::string> ColourConfig::displays() const {
+  std::vector<std::string> out;
+  for (int i = 0; i < config_->getNumDisplays(); ++i) out.emplace_back(config_->getDisplay(i));
+  return out;
+}
+
+std::vector<std::string> ColourConfig::views(const std::string& display) const {
+  std::vector<std::string> out;
+  for (int i = 0; i < config_->getNumViews(display.c_str()); ++i)
+    out.emplace_back(config_->getView(display.c_str(), i));
+  return out;
+}
+
+ColourSpace ColourConfig::view(const std::string& name) const {
+  const std::string usual = config_->getDefaultDisplay();
+  std::vector<std::string> known;
+  for (const std::string& view : views(usual)) {
+    if (view == name) return {name, std::nullopt, DisplayView{usual, view}};
+    known.push_back(view);
+  }
+  for (const std::string& display : displays())
+    for (const std::string& view : views(display)) {
+      known.push_back(display + "/" + view);
+      if (known.back() == name) return {name, std::nullopt, DisplayView{display, view}};
+    }
+  fail("unknown view '" + name + "'" + did_you_mean(name, known));
+}
+
+std::string ColourConfig::looks_of(const DisplayView& view) const {
+  const char* const looks = config_->getDisplayViewLooks(view.display.c_str(), view.view.c_str());
+  return looks ? looks : "";
+}
+
+OCIO::ConstCPUProcessorRcPtr ColourConfig::processor(const DisplayView& to) const {
+  try {
+    const std::lock_guard lock(making_processors);
+    return config_->getProcessor(working_space_.c_str(), to.display.c_str(), to.view.c_str(),
+                                 OCIO::TRANSFORM_DIR_FORWARD)
+        ->getOptimizedCPUProcessor(OCIO::BIT_DEPTH_F32, OCIO::BIT_DEPTH_F32, optimisation);
+  } catch (const std::exception& e) {
+    fail("no way to view '" + to.view + "' of display '" + to.display + "': " + one_line(e.what()));
+  }
+}
+
+bool ColourConfig::same(const ColourSpace& a, const ColourSpace& b) const {
+  if (a.for_a_device() || b.for_a_device()) return false;
+  if (a.name == b.name && a.xyz_from_rgb.has_value() == b.xyz_from_rgb.has_value()) return true;
+  if (!a.xyz_from_rgb && !b.xyz_from_rgb) return processor(a.name, b.name)->isNoOp();
+  return to_working(a).identity() && to_working(b).identity();
+}
+
+bool ColourConfig::is_srgb(const ColourSpace& space) const {
+  if (space.xyz_from_rgb || space.profile) return false;
+  const RowConverter convert = from_working(space);
+  // Mid-grey and a saturated colour: sRGB's curve and primaries, to 1e-4 of full scale.
+  constexpr Vec3<double> encoded = {.5, .25, .75};
+  const auto linear = [](double v) { return std::pow((v + .055) / 1.055, 2.4); };
+  const Vec3<double> working =
+      inverse(xyz_from_working_) *
+      (gamut_xyz_matrix("rec709").value() * Vec3<double>{linear(.5), linear(.25), linear(.75)});
+  float p[3] = {static_cast<float>(working[0]), static_cast<float>(working[1]),
+                static_cast<float>(working[2])};
+  convert.apply(&p[0], &p[1], &p[2], 1);
+  for (std::size_t i = 0; i < 3; ++i)
+    if (!(std::abs(static_cast<double>(p[i]) - encoded[i]) <= 1e-4)) return false;
+  return true;
+}
+
+std::optional<Matrix3<double>> ColourConfig::linear_xyz(const ColourSpace& space) const {
+  if (space.xyz_from_rgb) return space.xyz_from_rgb;
+  if (space.for_a_device()) return std::nullopt;
+  const std::optional<Matrix3<double>> working = linear_matrix(space.name, working_space_);
+  return working ? std::optional(xyz_from_working_ * *working) : std::nullopt;
+}
+
+RowConverter ColourConfig::to_working(const ColourSpace& from) const {
+  if (!from.xyz_from_rgb) return RowConverter(processor(from.name, working_space_));
+  const NamedPrimaries* known = match_matrix(*from.xyz_from_rgb);
+  if (known && known->name == working_gamut_) return RowConverter();
+  return RowConverter(inverse(xyz_from_working_) * *from.xyz_from_rgb);
+}
+
+RowConverter ColourConfig::from_working(const ColourSpace& to) const {
+  if (to.profile) return RowConverter(to.profile, xyz_from_working_);
+  if (to.view) return RowConverter(processor(*to.view));
+  if (!to.xyz_from_rgb) return RowConverter(processor(working_space_, to.name));
+  const NamedPrimaries* known = match_matrix(*to.xyz_from_rgb);
+  if (known && known->name == working_gamut_) return RowConverter();
+  return RowConverter(inverse(*to.xyz_from_rgb) * xyz_from_working_);
+}
+
+}  // namespace scotopic

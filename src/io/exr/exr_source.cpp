@@ -1,0 +1,222 @@
+#include "io/exr/exr_source.h"
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfChromaticitiesAttribute.h>
+#include <OpenEXR/ImfVecAttribute.h>
+#include <OpenEXR/ImfCompression.h>
+#include <OpenEXR/ImfFloatAttribute.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfTileDescription.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <exception>
+#include <new>
+
+#include "base/error.h"
+#include "io/exr/exr_headers.h"
+
+namespace scotopic {
+namespace {
+
+bool is_deep(const Imf::Header& header) {
+  return header.hasType() && (header.type() == Imf::DEEPSCANLINE || header.type() == Imf::DEEPTILE);
+}
+
+bool is_tiled(const Imf::Header& header) { return header.hasTileDescription(); }
+
+std::optional<double> float_attribute(const Imf::Header& header, const char* name) {
+  const auto* found = header.findTypedAttribute<Imf::FloatAttribute>(name);
+  return found ? std::optional<double>(found->value()) : std::nullopt;
+}
+
+std::optional<Xy> adopted_neutral_of(const Imf::Header& header) {
+  const auto* const found = header.findTypedAttribute<Imf::V2fAttribute>("adoptedNeutral");
+  if (!found) return std::nullopt;
+  const Xy xy = {static_cast<double>(found->value().x), static_cast<double>(found->value().y)};
+  // Farther than that from equal energy lies no white, and adaptation to it breaks down.
+  const auto near = [](double c) { return std::abs(c - 1.0 / 3) < 0.12; };
+  return near(xy.x) && near(xy.y) ? std::optional(xy) : std::nullopt;
+}
+
+std::optional<Primaries> primaries_of(const Imf::Header& header) {
+  if (!Imf::hasChromaticities(header)) return std::nullopt;
+  const Imf::Chromaticities& c = Imf::chromaticities(header);
+  const auto xy = [](const Imath::V2f& v) { return Xy{v.x, v.y}; };
+  return Primaries{xy(c.red), xy(c.green), xy(c.blue), xy(c.white)};
+}
+
+Window window_of(const Imath::Box2i& box) {
+  // 64 bits first: a hostile header may hold the extremes of int.
+  const auto after = [](int last) {
+    return static_cast<int>(std::min<std::int64_t>(std::int64_t{last} + 1, INT32_MAX));
+  };
+  return {box.min.x, box.min.y, after(box.max.x), after(box.max.y)};
+}
+
+}  // namespace
+
+int rows_compressed_together(const Imf::Header& header) {
+  return header.hasTileDescription() ? static_cast<int>(header.tileDescription().ySize)
+                                     : rows_compressed_together(header.compression());
+}
+
+int rows_compressed_together(Imf::Compression compression) {
+  switch (compression) {
+    case Imf::ZIP_COMPRESSION:
+    case Imf::PXR24_COMPRESSION:
+      return 16;
+    case Imf::PIZ_COMPRESSION:
+    case Imf::B44_COMPRESSION:
+    case Imf::B44A_COMPRESSION:
+    case Imf::DWAA_COMPRESSION:
+      return 32;
+    case Imf::DWAB_COMPRESSION:
+      return 256;
+    default:
+      return 1;
+  }
+}
+
+PixelType pixel_type(Imf::PixelType type) {
+  return type == Imf::HALF ? PixelType::half : type == Imf::FLOAT ? PixelType::float32 : PixelType::uint32;
+}
+
+Imf::PixelType exr_type(PixelType type) {
+  return type == PixelType::half ? Imf::HALF : type == PixelType::float32 ? Imf::FLOAT : Imf::UINT;
+}
+
+Window level_window(const Imf::Header& header, int width, int height) {
+  const Imath::Box2i& box = header.dataWindow();
+  return {box.min.x, box.min.y, box.min.x + width, box.min.y + height};
+}
+
+Imf::FrameBuffer frame_buffer(const std::vector<Channel>& channels, const Band& band, int x0) {
+  Imf::FrameBuffer frame;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const ChannelRows& rows = band.channels[i];
+    // OpenEXR addresses from the origin, which may lie outside the buffer; integers may, pointers may not.
+    const auto origin = reinterpret_cast<std::intptr_t>(rows.data) -
+                        std::intptr_t{band.y0} * rows.row_stride - std::intptr_t{x0} * rows.stride;
+    frame.insert(channels[i].name.c_str(), Imf::Slice(exr_type(rows.type), reinterpret_cast<char*>(origin),
+                                                      static_cast<std::size_t>(rows.stride),
+                                                      static_cast<std::size_t>(rows.row_stride)));
+  }
+  return frame;
+}
+
+ExrSource::ExrSource(const std::string& file, const Limits& limits) : PixelSource(file, "openexr") {
+  try {
+    watch(file);
+    check_exr_headers(file, limits);
+    const auto side = static_cast<int>(std::min<std::int64_t>(limits.side, INT32_MAX));
+    Imf::Header::setMaxImageSize(side, side);
+    Imf::Header::setMaxTileSize(side, side);
+    exr_ = std::make_unique<Imf::MultiPartInputFile>(file.c_str());
+    for (int part = 0; part < exr_->parts(); ++part) {
+      add_pictures(part);
+      check_limits(limits);
+      if (!exr_->partComplete(part)) fail("is truncated: it was not written to its end");
+    }
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& e) {
+    fail(std::string("is not a valid OpenEXR file: ") + e.what());
+  }
+}
+
+void ExrSource::add_pictures(int part) {
+  const Imf::Header& header = exr_->header(part);
+  Picture picture;
+  picture.part = part;
+  picture.name = header.hasName() ? header.name() : "";
+  picture.data = window_of(header.dataWindow());
+  picture.display = window_of(header.displayWindow());
+  picture.readable = !is_deep(header);
+  picture.primaries = primaries_of(header);
+  picture.adopted_neutral = adopted_neutral_of(header);
+  picture.white_luminance = float_attribute(header, "whiteLuminance");
+  picture.lmsr_unit = float_attribute(header, "scotopic:lmsrUnit");
+  picture.chunk_rows = rows_compressed_together(header);
+  picture.descending = header.lineOrder() == Imf::DECREASING_Y;
+  for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
+    picture.channels.push_back({it.name(), pixel_type(it.channel().type)});
+    if (it.channel().xSampling != 1 || it.channel().ySampling != 1) picture.readable = false;
+  }
+  if (!is_tiled(header) || !picture.readable) {
+    pictures_.push_back(picture);
+    return;
+  }
+  const Imf::TileDescription& tiles = header.tileDescription();
+  picture.chunk_rows = static_cast<int>(tiles.ySize);
+  auto& tiled = tiled_[part] = std::make_unique<Imf::TiledInputPart>(*exr_, part);
+  const bool ripmap = tiles.mode == Imf::RIPMAP_LEVELS;
+  for (int ly = 0; ly < tiled->numYLevels(); ++ly) {
+    for (int lx = 0; lx < (ripmap ? tiled->numXLevels() : 1); ++lx) {
+      picture.level_x = ripmap ? lx : ly;
+      picture.level_y = ly;
+      picture.data = level_window(header, tiled->levelWidth(picture.level_x), tiled->levelHeight(ly));
+      pictures_.push_back(picture);
+    }
+  }
+}
+
+void ExrSource::read_scanlines(const Picture& picture, const Imf::FrameBuffer& frame, int y0, int rows) {
+  Imf::InputPart part(*exr_, picture.part);
+  part.setFrameBuffer(frame);
+  part.readPixels(y0, y0 + rows - 1);
+}
+
+void ExrSource::read_tiles(const Picture& picture, const Imf::FrameBuffer& frame, int y0, int rows) {
+  Imf::TiledInputPart& part = *tiled_.at(picture.part);
+  part.setFrameBuffer(frame);
+  const int first = (y0 - picture.data.y0) / picture.chunk_rows;
+  const int last = (y0 + rows - 1 - picture.data.y0) / picture.chunk_rows;
+  part.readTiles(0, part.numXTiles(picture.level_x) - 1, first, last, picture.level_x, picture.level_y);
+}
+
+void ExrSource::read(std::size_t index, int y0, int rows, Band& band) {
+  const Picture& picture = pictures_[index];
+  band.allocate_planar(picture.channels, y0, rows, picture.data.width());
+  try {
+    const Imf::FrameBuffer frame = frame_buffer(picture.channels, band, picture.data.x0);
+    if (tiled_.count(picture.part))
+      read_tiles(picture, frame, y0, rows);
+    else
+      read_scanlines(picture, frame, y0, rows);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& e) {
+    fail(std::string("is truncated or damaged: ") + e.what());
+  }
+}
+
+std::vector<Attribute> ExrSource::attributes(std::size_t index) const {
+  std::vector<Attribute> out;
+  const Imf::Header& header = exr_->header(pictures_[index].part);
+  for (auto it = header.begin(); it != header.end(); ++it) {
+    const Imf::Attribute& attribute = it.attribute();
+    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute)) {
+      out.push_back({it.name(), text->value()});
+    } else if (const auto* number = dynamic_cast<const Imf::FloatAttribute*>(&attribute)) {
+      out.push_back({it.name(), static_cast<double>(number->value())});
+    } else if (const auto* integer = dynamic_cast<const Imf::IntAttribute*>(&attribute)) {
+      out.push_back({it.name(), integer->value()});
+    }
+  }
+  return out;
+}
+
+std::unique_ptr<PixelSource> open_exr_source(const std::string& file, const Limits& limits) {
+  return std::make_unique<ExrSource>(file, limits);
+}
+
+}  // namespace scotopic

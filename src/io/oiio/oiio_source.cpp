@@ -1,0 +1,142 @@
+#include "io/oiio/oiio_source.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <mutex>
+
+namespace scotopic {
+namespace {
+
+std::optional<PixelType> pixel_type(OIIO::TypeDesc type) {
+  static const std::map<unsigned char, PixelType> types = {{OIIO::TypeDesc::UINT8, PixelType::uint8},
+                                                           {OIIO::TypeDesc::UINT16, PixelType::uint16},
+                                                           {OIIO::TypeDesc::HALF, PixelType::half},
+                                                           {OIIO::TypeDesc::FLOAT, PixelType::float32}};
+  const auto found = types.find(type.basetype);
+  return found == types.end() ? std::nullopt : std::optional<PixelType>(found->second);
+}
+
+std::optional<double> float_attribute(const OIIO::ImageSpec& spec, const char* name) {
+  if (!spec.find_attribute(name)) return std::nullopt;
+  const auto value = static_cast<double>(spec.get_float_attribute(name, 0.0f));
+  return value > 0 ? std::optional<double>(value) : std::nullopt;
+}
+
+/// libpng prints its complaints itself; while one of these lives, nobody hears them. They come back as return values.
+/// Several threads may read at once: the first takes descriptor 2 away, the last gives it back.
+class StderrHeld {
+ public:
+  StderrHeld() {
+    const std::lock_guard guard(lock);
+    if (holders++ > 0) return;
+    before = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+    const int nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (before >= 0 && nothing >= 0) dup2(nothing, STDERR_FILENO);
+    if (nothing >= 0) close(nothing);
+  }
+  ~StderrHeld() {
+    const std::lock_guard guard(lock);
+    if (--holders > 0 || before < 0) return;
+    dup2(before, STDERR_FILENO);
+    close(before);
+    before = -1;
+  }
+  StderrHeld(const StderrHeld&) = delete;
+  StderrHeld& operator=(const StderrHeld&) = delete;
+
+ private:
+  static inline std::mutex lock;
+  static inline int holders = 0;
+  static inline int before = -1;
+};
+
+/// What OpenImageIO's readers keep: a tile, or the rows of a strip.
+std::int64_t bytes_held_by_oiio(const OIIO::ImageSpec& spec) {
+  const auto pixel = static_cast<std::int64_t>(spec.pixel_bytes(true));
+  const std::int64_t strip = std::clamp(spec.get_int_attribute("tiff:RowsPerStrip", 1), 1, std::max(1, spec.height));
+  if (spec.tile_width == 0) return pixel * spec.width * strip;
+  return pixel * spec.tile_width * std::max(1, spec.tile_height);
+}
+
+/// Grey images name their channel in many ways; EXR's is Y.
+void name_grey(std::vector<Channel>& channels) {
+  const bool alpha = channels.size() == 2 && channels[1].name == "A";
+  if (channels.size() == 1 || alpha) channels[0].name.assign(1, 'Y');
+}
+
+}  // namespace
+
+OiioSource::OiioSource(const std::string& file, const std::string& format, const Limits& limits)
+    : PixelSource(file, format), input_(OIIO::ImageInput::create(format)) {
+  if (!input_) fail("cannot be read: OpenImageIO here has no " + format + " reader");
+  OIIO::ImageSpec hints;
+  hints.attribute("oiio:UnassociatedAlpha", 1);  // alpha as the file has it
+  OIIO::ImageSpec spec;
+  const StderrHeld held;
+  watch(file);
+  // Its own limit does not name our option: as many as a TIFF can say, and check_limits decides.
+  OIIO::attribute("limits:channels", 65535);
+  if (!input_->open(file, spec, hints)) fail("is not a valid " + format + " file: " + input_->geterror());
+  for (int page = 0; input_->seek_subimage(page, 0); ++page) {
+    add_picture(page, input_->spec());
+    check_limits(limits);
+  }
+  (void)input_->geterror();  // "no such page" ended the loop
+}
+
+void OiioSource::add_picture(int page, const OIIO::ImageSpec& spec) {
+  Picture picture;
+  picture.part = page;
+  const std::optional<PixelType> type = pixel_type(spec.format);
+  if (!type || !spec.channelformats.empty())
+    fail("holds pixels of type " + std::string(spec.format.c_str()) +
+         "; uint8, uint16, half and float can be read");
+  if (spec.depth > 1) fail("is a volume, not an image");
+  picture.data = {spec.x, spec.y, spec.x + spec.width, spec.y + spec.height};
+  picture.display = {spec.full_x, spec.full_y, spec.full_x + spec.full_width, spec.full_y + spec.full_height};
+  for (int c = 0; c < spec.nchannels; ++c) picture.channels.push_back({spec.channel_name(c), *type});
+  name_grey(picture.channels);
+  // Strips need not be met: OpenImageIO buffers them.
+  picture.chunk_rows = spec.tile_width ? spec.tile_height : 1;
+  picture.library_bytes = bytes_held_by_oiio(spec);
+  picture.unassociated_alpha = spec.get_int_attribute("oiio:UnassociatedAlpha", 0) != 0;
+  picture.white_luminance = float_attribute(spec, "whiteLuminance");
+  pictures_.push_back(picture);
+  specs_.push_back(spec);
+}
+
+void OiioSource::read(std::size_t index, int y0, int rows, Band& band) {
+  const Picture& picture = pictures_[index];
+  const OIIO::ImageSpec& spec = specs_[index];
+  const int page = picture.part;
+  band.allocate_interleaved(picture.channels, y0, rows, picture.data.width());
+  const StderrHeld held;
+  const bool ok = spec.tile_width
+                      ? input_->read_tiles(page, 0, picture.data.x0, picture.data.x1, y0, y0 + rows, spec.z,
+                                           spec.z + 1, 0, spec.nchannels, spec.format, band.storage.data())
+                      : input_->read_scanlines(page, 0, y0, y0 + rows, spec.z, 0, spec.nchannels, spec.format,
+                                               band.storage.data());
+  if (!ok || input_->has_error()) fail("is truncated or damaged: " + input_->geterror());
+}
+
+std::vector<Attribute> OiioSource::attributes(std::size_t index) const {
+  std::vector<Attribute> out;
+  for (const OIIO::ParamValue& p : specs_[index].extra_attribs) {
+    const std::string name(p.name());
+    if (p.type() == OIIO::TypeString) out.push_back({name, p.get_string()});
+    if (p.type() == OIIO::TypeFloat) out.push_back({name, static_cast<double>(p.get_float())});
+    if (p.type() == OIIO::TypeInt) out.push_back({name, p.get_int()});
+  }
+  return out;
+}
+
+std::unique_ptr<PixelSource> open_oiio_source(const std::string& file, const std::string& format,
+                                              const Limits& limits) {
+  return std::make_unique<OiioSource>(file, format, limits);
+}
+
+}  // namespace scotopic

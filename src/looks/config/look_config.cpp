@@ -1,0 +1,156 @@
+#include "looks/config/look_config.h"
+
+#include <sstream>
+
+#include "color/base_config.h"
+#include "base/error.h"
+#include "color/primaries.h"
+
+namespace OCIO = OCIO_NAMESPACE;
+
+namespace scotopic {
+namespace {
+
+constexpr const char* looks_family = "Looks";
+constexpr const char* soft_view = "Highlight-safe";
+constexpr const char* plain_view = "Un-tone-mapped";
+
+OCIO::MatrixTransformRcPtr matrix_transform(const Matrix3<double>& m) {
+  double m44[16] = {};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) m44[4 * i + j] = m[i][j];
+  m44[15] = 1;
+  OCIO::MatrixTransformRcPtr transform = OCIO::MatrixTransform::Create();
+  transform->setMatrix(m44);
+  return transform;
+}
+
+OCIO::FileTransformRcPtr file_transform(const std::string& name, OCIO::Interpolation interpolation) {
+  OCIO::FileTransformRcPtr file = OCIO::FileTransform::Create();
+  file->setSrc(name.c_str());
+  file->setInterpolation(interpolation);
+  return file;
+}
+
+OCIO::ConstTransformRcPtr transform_of(const LookEntry& look) {
+  if (look.transform) return look.transform;
+  if (look.matrix) return matrix_transform(*look.matrix);
+  return file_transform(look.file, OCIO::INTERP_TETRAHEDRAL);
+}
+
+void add_space(OCIO::Config& config, const LookEntry& look, const LookPlace& place) {
+  OCIO::LookTransformRcPtr through = OCIO::LookTransform::Create();
+  through->setSrc(place.reference_space.c_str());
+  through->setDst(place.process_space.c_str());
+  through->setLooks(look.name.c_str());
+  OCIO::ColorSpaceRcPtr space = OCIO::ColorSpace::Create(OCIO::REFERENCE_SPACE_SCENE);
+  space->setName(look.name.c_str());
+  space->setFamily(looks_family);
+  space->setEncoding("scene-linear");
+  space->setBitDepth(OCIO::BIT_DEPTH_F32);
+  const std::string text =
+      place.process_space +
+      " through the look of this name; what is read from it is taken as it is, the look stays in";
+  space->setDescription(text.c_str());
+  space->setTransform(through, OCIO::COLORSPACE_DIR_FROM_REFERENCE);
+  // Read back as what it is: linear light that has been through the look.
+  OCIO::ColorSpaceTransformRcPtr plain = OCIO::ColorSpaceTransform::Create();
+  plain->setSrc(place.process_space.c_str());
+  plain->setDst(place.reference_space.c_str());
+  space->setTransform(plain, OCIO::COLORSPACE_DIR_TO_REFERENCE);
+  config.addColorSpace(space);
+}
+
+/// Scene light as it is up to .5, then towards 1 without reaching it: a LUT file, between matrices to and
+/// from Rec.709.
+void add_highlight_view(OCIO::Config& config, const std::string& file) {
+  const Matrix3<double> xyz_from_ap0 = gamut_xyz_matrix("ap0").value();
+  const Matrix3<double> xyz_from_rec709 = gamut_xyz_matrix("rec709").value();
+  OCIO::GroupTransformRcPtr group = OCIO::GroupTransform::Create();
+  group->appendTransform(matrix_transform(inverse(xyz_from_rec709) * xyz_from_ap0));
+  group->appendTransform(file_transform(file, OCIO::INTERP_LINEAR));
+  group->appendTransform(matrix_transform(xyz_from_rec709));
+  OCIO::ViewTransformRcPtr view = OCIO::ViewTransform::Create(OCIO::REFERENCE_SPACE_SCENE);
+  view->setName(soft_view);
+  view->setDescription("Scene light as it is up to 0.5, above rolled off towards 1; no other tone mapping");
+  view->setTransform(group, OCIO::VIEWTRANSFORM_DIR_FROM_REFERENCE);
+  config.addViewTransform(view);
+}
+
+/// Views of a display appear in the order they are added: plain ones first.
+void add_views(OCIO::Config& config, const std::vector<LookEntry>& looks) {
+  config.addSharedView(soft_view, soft_view, OCIO::OCIO_VIEW_USE_DISPLAY_NAME, "", "", "");
+  std::vector<std::string> names = {soft_view};
+  const auto share = [&](const LookEntry& look, const std::string& name, const char* transform) {
+    config.addSharedView(name.c_str(), transform, OCIO::OCIO_VIEW_USE_DISPLAY_NAME, look.name.c_str(), "",
+                         look.description.c_str());
+    names.push_back(name);
+  };
+  for (const LookEntry& look : looks)
+    if (look.view) share(look, look.name, plain_view);
+  for (const LookEntry& look : looks)
+    if (look.view) share(look, look.name + " soft", soft_view);
+  for (int d = 0; d < config.getNumDisplays(); ++d)
+    for (const std::string& name : names) config.addDisplaySharedView(config.getDisplay(d), name.c_str());
+}
+
+}  // namespace
+
+void add_look(OCIO::Config& config, const LookEntry& entry, const LookPlace& place) {
+  OCIO::LookRcPtr look = OCIO::Look::Create();
+  look->setName(entry.name.c_str());
+  look->setProcessSpace(place.process_space.c_str());
+  look->setDescription(entry.description.c_str());
+  look->setTransform(transform_of(entry));
+  if (!entry.matrix) look->setInverseTransform(matrix_transform(identity3<double>()));
+  config.addLook(look);
+  add_space(config, entry, place);
+}
+
+void add_noop_look(OCIO::Config& config, const std::string& name, const LookPlace& place) {
+  OCIO::LookRcPtr look = OCIO::Look::Create();
+  look->setName(name.c_str());
+  look->setProcessSpace(place.process_space.c_str());
+  look->setDescription("Changes nothing: the light-adapted eye");
+  config.addLook(look);
+}
+
+std::string reference_space(const OCIO::Config& config) {
+  for (int i = 0; i < config.getNumColorSpaces(OCIO::SEARCH_REFERENCE_SPACE_SCENE, OCIO::COLORSPACE_ALL);
+       ++i) {
+    const char* name =
+        config.getColorSpaceNameByIndex(OCIO::SEARCH_REFERENCE_SPACE_SCENE, OCIO::COLORSPACE_ALL, i);
+    const OCIO::ConstColorSpaceRcPtr space = config.getColorSpace(name);
+    if (!space->isData() && !space->getTransform(OCIO::COLORSPACE_DIR_TO_REFERENCE) &&
+        !space->getTransform(OCIO::COLORSPACE_DIR_FROM_REFERENCE))
+      return name;
+  }
+  throw Error(ExitCode::config, "", "the config has no colour space that is its scene reference");
+}
+
+OCIO::ConfigRcPtr make_look_config(const std::vector<LookEntry>& looks, const std::string& highlight_file,
+                                   const std::string& search_path) {
+  OCIO::ConfigRcPtr config = make_base_config();
+  config->setSearchPath(search_path.c_str());
+  config->addEnvironmentVar(context_variable, context_default);
+  const LookPlace place = {config->getColorSpace(OCIO::ROLE_SCENE_LINEAR)->getName(),
+                           reference_space(*config)};
+  add_noop_look(*config, "Photopic", place);
+  for (const LookEntry& look : looks) add_look(*config, look, place);
+  add_highlight_view(*config, highlight_file);
+  add_views(*config, looks);
+  return config;
+}
+
+std::string config_text(const OCIO::Config& config) {
+  try {
+    config.validate();
+    std::ostringstream text;
+    config.serialize(text);
+    return text.str();
+  } catch (const OCIO::Exception& e) {
+    throw Error(ExitCode::config, "", std::string("the config made is not valid: ") + e.what());
+  }
+}
+
+}  // namespace scotopic

@@ -1,0 +1,44 @@
+// A whole set of looks: which there are, their files, the configs that hold them, the manifest.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "looks/lut/baked_look.h"
+#include "looks/config/look_config.h"
+
+namespace scotopic {
+
+/// A file not yet written.
+struct TextFile {
+  std::string name;  ///< relative to its folder
+  std::string text;
+};
+
+/// Everything that a config of looks is made of.
+struct LookSet {
+  std::vector<BakedLook> looks;
+  std::vector<LookEntry> entries;  ///< of the looks, the context look and the matrix looks
+  std::vector<TextFile> luts;
+};
+
+/// Bakes `specs` (linear ones, all with the same working space), in their order. `context`: add the look that
+/// takes its luminance from $SCOTOPIC_LA, over the first spec's model.
+LookSet bake_set(const std::vector<LookSpec>& specs, const ColourConfig& config, const std::string& version,
+                 bool context);
+
+/// The curve of the own config's highlight-safe views.
+void add_highlights(LookSet& set, const std::string& version);
+
+/// luts/MANIFEST: what `sha256sum -c` checks; a comment before each file states its error.
+std::string manifest_text(const LookSet& set, const std::string& version, const std::string& command);
+
+/// Where configs look for LUTs: beside them, or beside their folder. (An archive of the first kind has no
+/// paths that lead out of it.)
+inline constexpr const char* lut_search_path = "luts:../luts";
+
+/// The own config with the set's looks, its LUTs in folder luts or ../luts.
+std::string look_config_text(const LookSet& set);
+
+}  // namespace scotopic

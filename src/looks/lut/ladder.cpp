@@ -1,0 +1,31 @@
+#include "looks/lut/ladder.h"
+
+#include "stages/table.h"
+#include "looks/lut/look_matrix.h"
+#include "looks/chain/number_text.h"
+
+namespace scotopic {
+
+std::string adaptation_text(double adaptation) {
+  return adaptation >= 1e-4 && adaptation < 1e6 ? fixed_text(adaptation, 9) : number_text(adaptation);
+}
+
+bool is_identity(const AppearanceParameters& p) {
+  const std::optional<Matrix3<double>> matrix = look_matrix(p);
+  return matrix && matrix->rows == identity3<double>().rows;
+}
+
+std::string look_name(const AppearanceParameters& p) {
+  const bool photopic = p.model != Model::safko2019 && !(p.adaptation < photopic_luminance);
+  std::string name = (photopic ? "Photopic " : "Mesopic ") + adaptation_text(p.adaptation) + " nit";
+  for (const LadderStep& step : ladder)
+    if (step.adaptation == p.adaptation) name += " (" + std::string(step.scene) + ")";
+  if (p.model != Model::filament2021) name += " " + std::string(name_of(p.model));
+  return name;
+}
+
+std::string look_file_stem(const AppearanceParameters& p) {
+  return std::string(name_of(p.model)) + "_" + adaptation_text(p.adaptation);
+}
+
+}  // namespace scotopic

@@ -1,0 +1,35 @@
+// The appearance operator as a chain of CLF operations: what a look is made of.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "stages/shared/parameters.h"
+#include "looks/chain/chain.h"
+
+namespace scotopic {
+
+/// Largest component a look takes: half's largest. Beyond, and for infinities, it is taken for this.
+inline constexpr double look_limit = 65504;
+
+/// The chain for linear RGB in and out (that of parameters.xyz_from_rgb, in units of white_luminance):
+///
+///   clamp to +-65504 (a NaN is clamped to -65504, hence black or nearly)
+///   -> RGB of AP1, cd/m2 -> clamp at 0 -> sums -> log2 -> differences: two shares, a level
+///   -> 1D: nodes where the operator bends -> 3D, `edge` nodes a side, tetrahedral -> 1D back
+///   -> sums of logarithms -> antilog2 -> differences -> RGB.
+///
+/// The 3D part is in cd/m2 and knows nothing of white_luminance, which sits in the matrices alone: as a
+/// function of the adaptation luminance there is one for each. Black is black, exactly; so is every colour
+/// that AP1 does not hold clamped to its border, continuously. `edge` is 2^k + 1, 17 to 129.
+Chain look_chain(const AppearanceParameters& parameters, std::size_t edge);
+
+/// A change of encoding, in place: planar RGB.
+using Encoding = std::function<void(float* r, float* g, float* b, std::size_t count)>;
+
+/// One 3D LUT over encoded RGB 0..1, for formats that hold nothing else. Only for log or display encodings:
+/// evenly spaced nodes of linear light miss the dark.
+Chain encoded_lut(const AppearanceParameters& parameters, std::size_t edge,
+                  const Encoding& linear_from_encoded, const Encoding& encoded_from_linear);
+
+}  // namespace scotopic

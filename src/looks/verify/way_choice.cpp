@@ -1,0 +1,92 @@
+#include "looks/verify/way_choice.h"
+
+#include <algorithm>
+
+#include "looks/verify/timing.h"
+
+namespace scotopic {
+namespace {
+
+constexpr std::size_t colours_compared = 20000;
+constexpr int rounds = 5;
+
+struct Candidate {
+  const Way* way;
+  PreparedWay prepared;
+  double max_error;
+};
+
+class Contest {
+ public:
+  explicit Contest(const AppearanceParameters& p)
+      : parameters_(p), colours_(stop_colours(colours_compared, p.xyz_from_rgb, p.xyz_from_rgb)) {}
+
+  void enter(std::string_view name) {
+    const Way& way = way_named(name);
+    PreparedWay prepared = prepare_way(parameters_, way);
+    const double max_error = way_error(parameters_, prepared.apply, colours_).difference.max;
+    candidates_.push_back({&way, std::move(prepared), max_error});
+  }
+
+  std::vector<MeasuredWay> measure() const {
+    Colours work = colours_;
+    PixelRows rows;
+    rows.r = work.r.data(), rows.g = work.g.data(), rows.b = work.b.data(), rows.count = work.size();
+    std::vector<TimedRun> runs;
+    for (const Candidate& c : candidates_)
+      runs.push_back({[&] {
+                        std::copy(colours_.r.begin(), colours_.r.end(), work.r.begin());
+                        std::copy(colours_.g.begin(), colours_.g.end(), work.g.begin());
+                        std::copy(colours_.b.begin(), colours_.b.end(), work.b.begin());
+                      },
+                      [&rows, &c] { c.prepared.apply(rows, nullptr); }, work.size()});
+    const std::vector<RunTime> times = time_interleaved(runs, rounds);
+    std::vector<MeasuredWay> out;
+    for (std::size_t i = 0; i < candidates_.size(); ++i)
+      out.push_back({candidates_[i].way->name, candidates_[i].max_error, times[i].median});
+    return out;
+  }
+
+  PreparedWay take(std::size_t i) { return std::move(candidates_[i].prepared); }
+
+ private:
+  const AppearanceParameters& parameters_;
+  Colours colours_;
+  std::vector<Candidate> candidates_;
+};
+
+bool meets(const MeasuredWay& way, const WayDemand& demand) {
+  return (!demand.max_error || way.max_error <= *demand.max_error) &&
+         (!demand.budget || way.nanoseconds <= *demand.budget);
+}
+
+}  // namespace
+
+std::optional<std::size_t> pick_way(std::span<const MeasuredWay> measured, const WayDemand& demand) {
+  std::optional<std::size_t> best;
+  const auto cost = [&](std::size_t i) {
+    return demand.max_error ? measured[i].nanoseconds : measured[i].max_error;
+  };
+  for (std::size_t i = 0; i < measured.size(); ++i)
+    if (meets(measured[i], demand) && (!best || cost(i) < cost(*best))) best = i;
+  return best;
+}
+
+WayChoice choose_way(const AppearanceParameters& parameters, const WayDemand& demand, bool luts) {
+  Contest contest(parameters);
+  contest.enter("float");
+  contest.enter("double");
+  WayChoice out;
+  out.measured = contest.measure();
+  for (const char* name : {"lut17", "lut33", "lut65", "lut129"}) {
+    if (!luts) break;
+    contest.enter(name);
+    out.measured = contest.measure();
+    if (out.measured.back().nanoseconds > out.measured.front().nanoseconds) break;
+  }
+  out.picked = pick_way(out.measured, demand);
+  if (out.picked) out.way = contest.take(*out.picked);
+  return out;
+}
+
+}  // namespace scotopic

@@ -1,0 +1,68 @@
+// Ways to compute the same operator, from double to a small LUT: what each is, and how far from exact it is.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "stages/shared/parameters.h"
+#include "looks/verify/measure.h"
+#include "pipeline/apply_image.h"
+
+namespace scotopic {
+
+/// One way.
+struct Way {
+  std::string_view name;  ///< as --precision says it
+  std::size_t edge;       ///< of the LUT, which OpenColorIO applies; 0: the operator itself
+};
+
+inline constexpr std::array<Way, 6> ways = {
+    {{"double", 0}, {"float", 0}, {"lut129", 129}, {"lut65", 65}, {"lut33", 33}, {"lut17", 17}}};
+
+/// The way of that name; throws Error(ExitCode::internal) if `ways` has none.
+const Way& way_named(std::string_view name);
+
+/// A way with everything worked out that does not depend on the pixel.
+struct PreparedWay {
+  RowOperator apply;      ///< any number of threads at once
+  double seconds = 0;     ///< that preparing took: baking, for a LUT
+  std::size_t bytes = 0;  ///< of the LUT
+};
+
+/// All ways leave alone what the operator leaves alone, bit for bit: pixels that are not finite and photopic
+/// ones. A LUT takes RGB only: signals of receptors, where rows have them, are not looked at.
+PreparedWay prepare_way(const AppearanceParameters& parameters, const Way& way);
+
+/// A quantity's statistics over pixels.
+struct ErrorStatistics {
+  double mean = 0, p99 = 0, max = 0;
+};
+/// Mean, 99th percentile and greatest; zeros for none.
+ErrorStatistics statistics_of(std::vector<double> values);
+
+/// A pixel that came out far off.
+struct WorstPixel {
+  Vec3<double> in{}, expected{}, got{};
+  double error = 0;
+};
+
+/// How far a way is from the reference, in double, over some colours; results are float.
+struct WayError {
+  ErrorStatistics difference;  ///< CIEDE2000 exposed to Y = .184 (appearance/colour_difference.h)
+  ErrorStatistics pixel;       ///< greatest error of a component over the pixel's largest, in or out
+  ErrorStatistics
+      component;  ///< error of a component in float ulps of its exact value; greatest of the three
+  std::vector<WorstPixel> worst;  ///< by `pixel`, a few, the worst first
+};
+
+/// Error of planar results `got` for colours `in`.
+WayError way_error(const AppearanceParameters& parameters, const Colours& in, const Colours& got);
+
+/// The same of a way on these colours.
+WayError way_error(const AppearanceParameters& parameters, const RowOperator& way, const Colours& in);
+
+}  // namespace scotopic

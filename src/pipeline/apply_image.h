@@ -1,0 +1,101 @@
+// The operator on a whole file: what it is made of, how its output is laid out, band by band.
+//
+// Files of receptor signals: channels L, M, S, R (or a layer of them, "lmsr.L" ...), in luminance units: D65
+// of 1 cd/m2 has L + M = 1 and R = .4986. The float attribute "scotopic:lmsrUnit" says how many cd/m2 a value
+// of 1 stands for; without it "whiteLuminance" does.
+//
+// Alpha: colour is taken as the file has it, associated or not, and the operator applied to that. Only
+// between formats of different convention (PNG is unassociated, OpenEXR associated) is it multiplied or
+// divided.
+//
+// A single luminance channel (Y, or a grey TIFF or PNG) becomes R, G, B: the eye in the dark does not see
+// grey as grey alone.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "stages/acuity/filter.h"
+#include "batch/batch.h"
+#include "color/colour_config.h"
+#include "pipeline/light_path.h"
+#include "io/pixel_sink.h"
+#include "io/pixel_source.h"
+#include "scene/scene_statistics.h"
+
+namespace scotopic {
+
+/// What the user says about a file's colour and its output; what is not said is found in the file.
+struct ImageRequest {
+  std::string layer;                       ///< --layer: a channel prefix or the name of a part
+  std::optional<std::string> colourspace;  ///< of the input
+  std::optional<std::string> output_colourspace;
+  std::optional<std::string> view;                      ///< --display: [DISPLAY/]VIEW, in place of a colour space
+  std::shared_ptr<const IccProfile> profile = nullptr;  ///< --icc, likewise
+  int jpeg_quality = 95;
+  std::optional<PixelType> type;  ///< of the output's colour channels
+  double exposure = 0;            ///< EV, applied to the result
+};
+
+/// A picture of the source that holds light, and the space its values are in.
+struct LightPicture {
+  std::size_t index = 0;
+  ColourChannels channels;
+  ColourSpace space;
+  std::string space_reason;  ///< how the space was found
+};
+
+/// What a file will become; no pixel is read. `notes` are for the user: what the output cannot hold.
+struct ImageLayout {
+  std::string format;
+  std::vector<LightPicture> light;  ///< at least one
+  std::vector<OutputPicture> outputs;
+  ColourSpace output_space;
+  double exposure = 0;
+  std::vector<std::string> notes;
+
+  /// The light of that picture of the source; nullptr: it holds none.
+  const LightPicture* light_of(std::size_t source_index) const;
+};
+
+/// Throws Error for a layer, space or type that does not exist or does not fit the output's format.
+ImageLayout plan_layout(const PixelSource& source, const std::string& output, const ColourConfig& config,
+                        const ImageRequest& request);
+
+/// Marks the layout's colour pictures with what was applied.
+void set_stamps(ImageLayout& layout, const std::vector<Attribute>& stamps);
+
+/// The operator on rows of pixels, whichever way it is computed; what touched says is as AppearanceBatch::apply
+/// has it. Called from any number of threads at once.
+using RowOperator = std::function<void(const PixelRows& rows, std::uint8_t* touched)>;
+
+/// Called after each band with rows done and rows in all.
+using Progress = std::function<void(std::int64_t done, std::int64_t total)>;
+
+/// One pass over the light of all pictures (full resolution only), or over a region of each.
+SceneStatistics measure_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+                              const AppearanceParameters& parameters,
+                              const std::optional<Window>& region = std::nullopt);
+
+/// One after the other, each looking at what the one before has made of the whole picture.
+using SpatialFilters = std::vector<const SpatialFilter*>;
+
+/// One pass over the light of all pictures (full resolution only): the values above 0 that the last of `filters`
+/// leaves in R, in image units. What is added up are integers, so that threads make no difference.
+LuminanceHistogram measure_base(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+                                const RowOperator& apply, const SpatialFilters& filters);
+
+/// Writes the whole output. Without `apply` (empty) nothing is called for: where nothing else changes values either,
+/// the file's own bytes go through. `filters` are applied last, to each picture by itself. Same bytes for any number of
+/// threads. Returns how many pixels with a component that is not finite went through without `apply`.
+std::uint64_t apply_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+                          const RowOperator& apply, OutputFile& file, const Progress& progress = nullptr,
+                          const SpatialFilters& filters = {});
+
+/// Threads for rows and for OpenEXR's chunks; 0: one for each processor.
+void set_threads(int count);
+
+}  // namespace scotopic

@@ -1,0 +1,167 @@
+#include "pipeline/lmsr_image.h"
+
+#include <array>
+#include <atomic>
+#include <cstring>
+
+#include "base/error.h"
+#include "pipeline/non_finite.h"
+#include "io/row_bands.h"
+#include "receptors/receptor_space.h"
+
+namespace scotopic {
+namespace {
+
+constexpr std::array<const char*, 4> receptor_names = {"L", "M", "S", "R"};
+
+bool is_receptor_name(const std::string& name, const std::string& prefix) {
+  for (const char* receptor : receptor_names)
+    if (name == prefix + receptor) return true;
+  return false;
+}
+
+/// One picture's light as L, M, S, R.
+class ReceptorRun {
+ public:
+  ReceptorRun(const PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+              const RodChoice& rods, const OutputPicture& out)
+      : light_(*layout.light_of(out.source)),
+        out_(out),
+        reader_(light_.channels, config, light_.space),
+        xyz_from_rgb_(config.xyz_from_working()),
+        rods_(rods) {
+    const std::vector<Channel>& from = source.pictures()[out.source].channels;
+    for (std::size_t o = receptor_names.size(); o < out.picture.channels.size(); ++o)
+      for (std::size_t c = 0; c < from.size(); ++c)
+        if (!light_.channels.is_colour(c) &&
+            (from[c].name == out.picture.channels[o].name ||
+             (light_.channels.alpha == c && out.picture.channels[o].name == "A")))
+          others_.emplace_back(o, c);
+  }
+
+  void run(const Band& in, Band& out) const {
+    out.allocate_planar(out_.picture.channels, in.y0, in.rows, in.width);
+    parallel_rows(in.rows, 8, [&](int first, int last) {
+      LightRow light(static_cast<std::size_t>(in.width));
+      for (int row = first; row < last; ++row) run_row(in, row, light, out);
+    });
+  }
+
+  /// Pixels of the source that are not.
+  std::uint64_t non_finite() const noexcept { return non_finite_; }
+
+ private:
+  void run_row(const Band& in, int row, LightRow& light, Band& out) const {
+    const auto width = static_cast<std::size_t>(in.width);
+    if (light_.channels.kind == ColourChannels::Kind::computed) {
+      bool finite = true;
+      for (std::size_t s = 0; s < receptor_names.size(); ++s) {
+        const float* signals = in.signals[s].data() + width * static_cast<std::size_t>(row);
+        store_row(signals, width, out.channels[s].row(row));
+        finite = finite && !any_non_finite(signals, width);
+      }
+      if (!finite) {
+        reader_.read(in, row, light);
+        non_finite_ += count_non_finite(light.pixels(true));
+      }
+    } else {
+      reader_.read(in, row, light);
+      non_finite_ += count_non_finite(light.pixels(reader_.receptors()));
+      if (!reader_.receptors()) see(light);
+      const std::vector<float>* planes[] = {&light.cone_l, &light.cone_m, &light.cone_s, &light.rod};
+      for (std::size_t s = 0; s < receptor_names.size(); ++s)
+        store_row(planes[s]->data(), width, out.channels[s].row(row));
+    }
+    for (const auto& [to, from] : others_)
+      copy(in.channels[from].row(row), out.channels[to].row(row), light.r);
+  }
+
+  /// Receptor signals of working RGB.
+  void see(LightRow& light) const {
+    const Matrix3<double> cones = lms_from_xyz() * xyz_from_rgb_;
+    const double rod_per_luminance = rod_signal_per_scotopic_luminance();
+    for (std::size_t i = 0; i < light.r.size(); ++i) {
+      const Vec3<double> rgb = {light.r[i], light.g[i], light.b[i]};
+      const Vec3<double> lms = cones * rgb;
+      light.cone_l[i] = static_cast<float>(lms[0]);
+      light.cone_m[i] = static_cast<float>(lms[1]);
+      light.cone_s[i] = static_cast<float>(lms[2]);
+      light.rod[i] =
+          static_cast<float>(rod_per_luminance * scotopic_luminance_from_xyz(xyz_from_rgb_ * rgb,
+                                                                             rods_.estimate, rods_.sp_ratio));
+    }
+  }
+
+  static void copy(const NativeRow& from, const NativeRow& to, std::vector<float>& room) {
+    const std::size_t size = size_of(from.type);
+    if (from.type == to.type) {
+      for (std::size_t i = 0; i < room.size(); ++i)
+        std::memcpy(to.data + static_cast<std::ptrdiff_t>(i) * to.stride,
+                    from.data + static_cast<std::ptrdiff_t>(i) * from.stride, size);
+    } else {
+      load_row(from, room.size(), room.data());
+      store_row(room.data(), room.size(), to);
+    }
+  }
+
+  const LightPicture& light_;
+  const OutputPicture& out_;
+  LightReader reader_;
+  Matrix3<double> xyz_from_rgb_;
+  RodChoice rods_;
+  std::vector<std::pair<std::size_t, std::size_t>> others_;  // output channel, source channel
+  mutable std::atomic<std::uint64_t> non_finite_{0};
+};
+
+}  // namespace
+
+void make_lmsr_layout(ImageLayout& layout, const std::string& output) {
+  if (layout.format != "openexr")
+    throw Error(ExitCode::usage, output, "receptor signals are written as OpenEXR only");
+  for (OutputPicture& out : layout.outputs) {
+    if (out.copy) continue;
+    const std::string layer = layout.light_of(out.source)->channels.layer;
+    const std::string prefix = layer.empty() ? "" : layer + ".";
+    std::vector<Channel> channels;
+    for (const char* name : receptor_names) channels.push_back({prefix + name, out.picture.channels[0].type});
+    for (std::size_t c = 3; c < out.picture.channels.size(); ++c)
+      if (!is_receptor_name(out.picture.channels[c].name, prefix))
+        channels.push_back(out.picture.channels[c]);
+    out.picture.channels = std::move(channels);
+    out.new_space = true;
+    out.primaries.reset();
+    out.srgb = false;
+  }
+}
+
+std::uint64_t write_lmsr(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+                         const RodChoice& rods, OutputFile& file, const Progress& progress) {
+  const std::unique_ptr<PixelSink> sink = open_sink(layout.format, file, source, layout.outputs);
+  const std::int64_t total = rows_to_write(layout);
+  std::int64_t done = 0;
+  std::uint64_t non_finite = 0;
+  Band in;
+  Band out;
+  for (std::size_t i = 0; i < layout.outputs.size(); ++i) {
+    if (layout.outputs[i].copy) {
+      sink->copy(i);
+      continue;
+    }
+    const ReceptorRun run(source, layout, config, rods, layout.outputs[i]);
+    const Picture& picture = source.pictures()[layout.outputs[i].source];
+    each_band(picture, picture.descending, [&](int y0, int rows) {
+      source.read(layout.outputs[i].source, y0, rows, in);
+      run.run(in, out);
+      sink->write(i, out);
+      done += rows;
+      if (progress) progress(done, total);
+    });
+    non_finite += run.non_finite();
+  }
+  sink->finish();
+  source.require_unchanged();
+  file.commit();
+  return non_finite;
+}
+
+}  // namespace scotopic

@@ -1,0 +1,331 @@
+// Configs with looks: the project's own, and a studio's that gets some.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include "looks/config/config_merge.h"
+#include "looks/verify/inspect.h"
+#include "looks/lut/ladder.h"
+#include "looks/config/look_set.h"
+#include "looks/chain/ocio_chain.h"
+#include "looks/support.h"
+#include "base/error.h"
+
+namespace OCIO = OCIO_NAMESPACE;
+
+namespace scotopic {
+namespace {
+
+LookSpec spec_at(double adaptation, const ColourConfig& config) {
+  LookSpec spec;
+  spec.parameters = test::adapted_to(adaptation);
+  spec.parameters.xyz_from_rgb = config.xyz_from_working();
+  spec.parameters.xyz_from_gamut = config.xyz_from_working();
+  spec.space = config.working_space();
+  spec.edge = 17;
+  return spec;
+}
+
+/// A config of two looks in a folder of its own, written as the program does.
+class OwnConfig : public testing::Test {
+ protected:
+  void SetUp() override {
+    const ColourConfig own = ColourConfig::own();
+    set_ = bake_set({spec_at(10, own), spec_at(0.1, own), spec_at(0.01, own)}, own, "test", true);
+    add_highlights(set_, "test");
+    for (const TextFile& lut : set_.luts) folder_.write("luts/" + lut.name, lut.text);
+    folder_.write("luts/MANIFEST", manifest_text(set_, "test", "bake"));
+    text_ = look_config_text(set_);
+    config_ = OCIO::Config::CreateFromFile(folder_.write("config.ocio", text_).c_str());
+  }
+
+  std::array<float, 4> through(const OCIO::ConstTransformRcPtr& transform) const {
+    std::array<float, 4> pixel = {0.02f, 0.05f, 0.2f, 0.25f};
+    config_->getProcessor(transform)->getDefaultCPUProcessor()->applyRGBA(pixel.data());
+    return pixel;
+  }
+
+  test::Folder folder_;
+  LookSet set_;
+  std::string text_;
+  OCIO::ConstConfigRcPtr config_;
+};
+
+constexpr const char* street = "Mesopic 0.1 nit (street lighting)";
+constexpr const char* linear = "Linear Rec.709 (sRGB)";
+
+OCIO::LookTransformRcPtr look_transform(const char* look) {
+  OCIO::LookTransformRcPtr transform = OCIO::LookTransform::Create();
+  transform->setSrc(linear);
+  transform->setDst(linear);
+  transform->setLooks(look);
+  return transform;
+}
+
+TEST_F(OwnConfig, is_valid_and_of_the_profile_that_debian_s_ocio_reads) {
+  EXPECT_NO_THROW(config_->validate());
+  EXPECT_EQ(config_->getMajorVersion(), 2u);
+  EXPECT_EQ(config_->getMinorVersion(), 0u);
+  EXPECT_EQ(text_.find("${"), std::string::npos);
+}
+
+TEST_F(OwnConfig, first_look_changes_nothing) {
+  EXPECT_STREQ(config_->getLookNameByIndex(0), "Photopic");
+  EXPECT_TRUE(config_->getProcessor(look_transform("Photopic"))->isNoOp());
+}
+
+TEST_F(OwnConfig, a_look_is_the_same_as_look_as_space_and_as_view) {
+  const auto as_look = through(look_transform(street));
+  OCIO::ColorSpaceTransformRcPtr space = OCIO::ColorSpaceTransform::Create();
+  space->setSrc(linear);
+  space->setDst(street);
+  const auto as_space = through(space);
+  EXPECT_NE(as_look[2], 0.2f);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(as_space[c], as_look[c], 2e-6f) << c;
+  EXPECT_EQ(as_look[3], 0.25f);
+
+  OCIO::DisplayViewTransformRcPtr view = OCIO::DisplayViewTransform::Create();
+  view->setSrc(linear);
+  view->setDisplay("sRGB - Display");
+  view->setView(street);
+  OCIO::DisplayViewTransformRcPtr plain = OCIO::DisplayViewTransform::Create();
+  plain->setSrc(street);
+  plain->setDisplay("sRGB - Display");
+  plain->setView("Un-tone-mapped");
+  OCIO::GroupTransformRcPtr look_then_plain = OCIO::GroupTransform::Create();
+  look_then_plain->appendTransform(look_transform(street));
+  plain->setSrc(linear);
+  look_then_plain->appendTransform(plain);
+  const auto seen = through(view), expected = through(look_then_plain);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], expected[c], 2e-6f) << c;
+}
+
+TEST_F(OwnConfig, every_display_offers_every_ladder_look_plain_and_soft) {
+  ASSERT_EQ(config_->getNumDisplays(), 3);
+  for (int d = 0; d < 3; ++d) {
+    std::set<std::string> views;
+    for (int v = 0; v < config_->getNumViews(config_->getDisplay(d)); ++v)
+      views.insert(config_->getView(config_->getDisplay(d), v));
+    for (const char* view :
+         {"Un-tone-mapped", "Highlight-safe", "Raw", street, "Mesopic 0.1 nit (street lighting) soft",
+          "Mesopic 0.01 nit (full moon)", "Photopic 10 nit (lamplit room)"})
+      EXPECT_TRUE(views.count(view)) << config_->getDisplay(d) << ": " << view;
+  }
+}
+
+TEST_F(OwnConfig, highlight_safe_is_plain_below_half_and_never_reaches_one) {
+  const auto seen = [&](const char* view, float value) {
+    OCIO::DisplayViewTransformRcPtr transform = OCIO::DisplayViewTransform::Create();
+    transform->setSrc(linear);
+    transform->setDisplay("Rec.1886 Rec.709 - Display");
+    transform->setView(view);
+    float pixel[3] = {value, value, value};
+    config_->getProcessor(transform)->getDefaultCPUProcessor()->applyRGB(pixel);
+    return pixel[1];
+  };
+  for (const float v : {0.001f, 0.02f, 0.18f, 0.45f})
+    EXPECT_NEAR(seen("Highlight-safe", v), seen("Un-tone-mapped", v), 2e-4f) << v;
+  float last = 0;
+  for (float v = 0.5f; v < 200; v *= 1.5f) {
+    EXPECT_GE(seen("Highlight-safe", v), last);
+    last = seen("Highlight-safe", v);
+    EXPECT_LE(last, 1.0005f);
+  }
+}
+
+TEST_F(OwnConfig, the_context_variable_chooses_the_luminance) {
+  const auto with = [&](const char* value) {
+    const OCIO::ContextRcPtr context = config_->getCurrentContext()->createEditableCopy();
+    if (value) context->setStringVar("SCOTOPIC_LA", value);
+    float pixel[3] = {0.02f, 0.05f, 0.2f};
+    config_->getProcessor(context, look_transform("Mesopic by SCOTOPIC_LA"), OCIO::TRANSFORM_DIR_FORWARD)
+        ->getDefaultCPUProcessor()
+        ->applyRGB(pixel);
+    return pixel[2];
+  };
+  const auto fixed = [&](const char* look) { return through(look_transform(look))[2]; };
+  EXPECT_EQ(with(nullptr), fixed(street));
+  EXPECT_EQ(with("0.01"), fixed("Mesopic 0.01 nit (full moon)"));
+  EXPECT_EQ(with("10"), 0.2f);
+  EXPECT_THROW((void)with("0.0123"), OCIO::Exception);
+}
+
+TEST_F(OwnConfig, matrix_looks_are_the_operator_s_chroma_with_global_weight) {
+  AppearanceParameters p = test::adapted_to(0.1);
+  p.weight = Weight::global;
+  p.strength.shift = p.strength.luminance = 0;
+  const auto processor = cpu_processor(look_transform("Chroma 0.1 nit (global weight matrix)"), config_);
+  const BakeError e = measure_bake(p, processor, p.xyz_from_rgb, 20000);
+  std::printf("matrix look: mean %.2g max %.2g\n", e.mean, e.max);
+  EXPECT_LE(e.max, 0.005);
+}
+
+TEST_F(OwnConfig, inspection_finds_it_sound_and_finds_what_is_not) {
+  const ColourConfig config = ColourConfig::from_file(folder_.path("config.ocio"));
+  const std::vector<Inspected> looks = inspect_config(config, street);
+  ASSERT_EQ(looks.size(), 1u);
+  EXPECT_TRUE(looks[0].problems.empty()) << looks[0].problems[0];
+  EXPECT_THROW((void)inspect_config(config, "Mesopic 7 nit"), Error);
+  EXPECT_TRUE(manifest_problems(folder_.path("luts")).empty());
+  // Seven of the ladder's files are not there, which the context look will hit one day.
+  const std::vector<Inspected> context = inspect_config(config, "Mesopic by SCOTOPIC_LA");
+  EXPECT_EQ(context.at(0).problems.size(), 6u);
+
+  const std::string lut = "luts/" + set_.luts[1].name;
+  folder_.write(lut, set_.luts[1].text + "\n");
+  folder_.write("luts/stray.clf", "x");
+  EXPECT_EQ(manifest_problems(folder_.path("luts")).size(), 2u);
+  std::filesystem::remove(folder_.path(lut));
+  EXPECT_EQ(manifest_problems(folder_.path("luts")).size(), 2u);
+}
+
+// A studio's config as people write them: comments, odd spacing, no looks.
+constexpr const char* studio = R"(ocio_profile_version: 2
+
+# Our show.
+search_path: "luts:shared/luts"
+strictparsing: true
+luma: [0.2126, 0.7152, 0.0722]
+
+roles:
+  scene_linear: lin   # everything
+  default: lin
+  data: raw
+  aces_interchange: ap0
+
+displays:
+  monitor:
+    - !<View> {name: Raw, colorspace: raw}   # first, on purpose
+    - !<View> {name: Graded, colorspace: out}
+
+  "wall 2":
+    - !<View> {name: Graded, colorspace: out}
+
+active_displays: []
+active_views: [Graded, Raw]
+
+colorspaces:
+  # The reference.
+  - !<ColorSpace>
+    name: lin
+    isdata: false
+
+  - !<ColorSpace>
+    name: ap0
+    isdata: false
+    to_reference: !<MatrixTransform> {matrix: [2.52168618674388, -1.13413098823972, -0.387555198504164, 0, -0.276479914229922, 1.37271908766826, -0.096239173438334, 0, -0.0153780649660342, -0.152975335867399, 1.16835340083343, 0, 0, 0, 0, 1]}
+
+  - !<ColorSpace>
+    name: out
+    isdata: false
+    from_reference: !<ExponentTransform> {value: [2.2, 2.2, 2.2, 1], direction: inverse}
+
+  - !<ColorSpace>
+    name: raw
+    isdata: true
+# The end.
+)";
+
+class Studio : public testing::Test {
+ protected:
+  void SetUp() override { file_ = folder_.write("config.ocio", studio); }
+
+  std::vector<LookEntry> entries() const {
+    std::vector<LookEntry> out(2);
+    out[0].name = street;
+    out[0].description = "as baked";
+    out[0].file = "a.clf";
+    out[1].name = "Chroma";
+    out[1].matrix = identity3<double>();
+    out[1].view = false;
+    return out;
+  }
+
+  test::Folder folder_;
+  std::string file_;
+};
+
+TEST_F(Studio, every_line_stays_and_new_ones_come_between) {
+  const MergedConfig merged = merge_looks(ColourConfig::from_file(file_), entries());
+  EXPECT_FALSE(merged.rewritten);
+  std::istringstream before(studio), after(merged.text);
+  std::string line, next;
+  int changed = 0;
+  while (std::getline(before, line)) {
+    if (line.rfind("active_views", 0) == 0) {
+      ++changed;
+      continue;
+    }
+    bool found = false;
+    while (!found && std::getline(after, next)) found = next == line;
+    ASSERT_TRUE(found) << "lost: " << line;
+  }
+  EXPECT_EQ(changed, 1);
+  EXPECT_NE(merged.text.find(std::string("active_views: [Graded, Raw, ") + street + "]"), std::string::npos);
+}
+
+TEST_F(Studio, looks_come_as_look_space_and_view_on_every_display) {
+  const MergedConfig merged = merge_looks(ColourConfig::from_file(file_), entries());
+  folder_.write("config.ocio", merged.text);
+  const OCIO::ConstConfigRcPtr config = OCIO::Config::CreateFromFile(file_.c_str());
+  EXPECT_NO_THROW(config->validate());
+  ASSERT_EQ(config->getNumLooks(), 3);
+  EXPECT_STREQ(config->getLookNameByIndex(0), "Photopic");
+  EXPECT_TRUE(config->getColorSpace(street));
+  for (const char* display : {"monitor", "wall 2"}) {
+    EXPECT_STREQ(config->getDisplayViewColorSpaceName(display, street), "out");
+    EXPECT_STREQ(config->getDisplayViewLooks(display, street), street);
+  }
+  EXPECT_EQ(merged.lut_folder, folder_.path("luts") + "/scotopic");
+  const auto file = OCIO::DynamicPtrCast<const OCIO::FileTransform>(config->getLook(street)->getTransform());
+  EXPECT_STREQ(file->getSrc(), "scotopic/a.clf");
+}
+
+TEST_F(Studio, names_that_clash_are_refused_by_name) {
+  folder_.write("config.ocio", merge_looks(ColourConfig::from_file(file_), entries()).text);
+  try {
+    (void)merge_looks(ColourConfig::from_file(file_), entries());
+    FAIL() << "accepted a second time";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ExitCode::config);
+    EXPECT_NE(std::string(e.what()).find(street), std::string::npos);
+  }
+}
+
+TEST_F(Studio, a_layout_that_lines_cannot_be_put_into_is_written_anew) {
+  std::string odd = studio;
+  const std::string from = "active_views: [Graded, Raw]";
+  odd.replace(odd.find(from), from.size(), "active_views:\n  [Graded,\n  Raw]");
+  folder_.write("config.ocio", odd);
+  const MergedConfig merged = merge_looks(ColourConfig::from_file(file_), entries());
+  EXPECT_TRUE(merged.rewritten);
+  folder_.write("config.ocio", merged.text);
+  EXPECT_EQ(OCIO::Config::CreateFromFile(file_.c_str())->getNumLooks(), 3);
+}
+
+TEST_F(Studio, the_diff_shows_what_changed_and_nothing_else) {
+  EXPECT_EQ(line_diff("a\nb\nc\n", "a\nb\nc\n"), "");
+  EXPECT_EQ(line_diff("a\nb\nc\n", "a\nb\nx\ny\nc\n"), "@@ -3 +3 @@\n+x\n+y\n");
+  EXPECT_EQ(line_diff("a\nb\nc\n", "a\nB\nc\n"), "@@ -2 +2 @@\n-b\n+B\n");
+  EXPECT_EQ(line_diff("a\n", "a\nb\n"), "@@ -2 +2 @@\n+b\n");
+}
+
+// Debian's blender-data has it; it says nothing of looks where that is not installed.
+TEST(BlenderConfig, gets_looks_without_losing_a_line) {
+  const std::string original = "/usr/share/blender/datafiles/colormanagement/config.ocio";
+  if (!std::filesystem::exists(original)) GTEST_SKIP() << "blender-data is not installed";
+  std::vector<LookEntry> entries(1);
+  entries[0].name = street;
+  entries[0].file = "a.clf";
+  const MergedConfig merged = merge_looks(ColourConfig::from_file(original), entries);
+  EXPECT_FALSE(merged.rewritten);
+  std::istringstream diff(line_diff(test::read_text(original), merged.text));
+  int removed = 0;
+  for (std::string line; std::getline(diff, line);) removed += line[0] == '-' ? 1 : 0;
+  EXPECT_EQ(removed, 1) << "only active_views may change";
+}
+
+}  // namespace
+}  // namespace scotopic
