@@ -10,12 +10,18 @@
 // foreach_target first: it includes this file once per target.
 #include <hwy/highway.h>
 
-#include "batch/batch_constants.h"
-#include "batch/batch_pixels-inl.h"
 #include "batch/batch_rows-inl.h"
+#include "batch/wide_constants.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace scotopic::HWY_NAMESPACE {
+
+/// The pixel stages on vectors of D, with their constants.
+template <class D, StageSet stages = StageSet::any, Receptors receptors = Receptors::maybe>
+struct Fused : PixelStages<LaneNumbers<D>, stages, receptors> {
+  explicit Fused(const WideConstants<typename lanes::Types<D>::T>& wide)
+      : PixelStages<LaneNumbers<D>, stages, receptors>(LaneNumbers<D>(wide), wide.numbers, wide.on) {}
+};
 
 // A byte of 0 or 1 per bit, eight at a time.
 HWY_INLINE void mark(std::uint8_t* touched, std::size_t lanes, std::uint64_t bits) {
@@ -25,6 +31,11 @@ HWY_INLINE void mark(std::uint8_t* touched, std::size_t lanes, std::uint64_t bit
     const std::uint64_t bytes = (spread + 0x7f7f7f7f7f7f7f7fu) >> 7 & 0x0101010101010101u;
     std::memcpy(touched + i, &bytes, std::min<std::size_t>(8, lanes - i));
   }
+}
+
+template <class V, class M>
+HWY_INLINE Triple<V> chosen(const M& mask, const Triple<V>& yes, const Triple<V>& no) {
+  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.z, no.z)};
 }
 
 template <class D>
@@ -42,13 +53,13 @@ std::uint64_t apply_exactly(const WideConstants<double>& exact, const Rows& rows
                             std::uint64_t bits) {
   using D = Tag<double>;
   const D d;
-  const PixelOperator<D> op(d, exact);
+  const Fused<D> op(exact);
   Results<Element<Rows>> out;
   std::uint64_t active = 0;
   for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
     auto alpha = hn::Zero(hn::Rebind<Element<Rows>, D>());
     const auto p = load_pixels<Receptors::maybe>(d, rows, at + i, alpha);
-    typename PixelOperator<D>::Seen seen;
+    typename PixelStages<LaneNumbers<D>>::Seen seen;
     if (!op(p, seen)) continue;
     out.set(d, seen.rgb);
     const std::uint64_t here = bits >> i & lane_bits(d, seen.active);
@@ -72,15 +83,15 @@ HWY_NOINLINE std::uint64_t store_some(const WideConstants<double>& exact, const 
 
 // Stores the results of one vector of pixels, `p` as they came in. Pixels that are not touched keep their bits.
 template <class D, class Rows>
-HWY_INLINE void store_mixed(D d, const WideConstants<double>& exact, const PixelVector<hn::Vec<D>>& p,
-                              const SeenVector<hn::Vec<D>, hn::Mask<D>>& seen, const Rows& rows, std::size_t at,
+HWY_INLINE void store_mixed(D d, const WideConstants<double>& exact, const PixelIn<hn::Vec<D>>& p,
+                              const SeenPixel<hn::Vec<D>, hn::Mask<D>>& seen, const Rows& rows, std::size_t at,
                               ElementVector<D, Element<Rows>> alpha, std::uint8_t* touched) {
   const std::size_t lanes = hn::Lanes(d);
   const std::uint64_t active = lane_bits(d, seen.active), doubtful = lane_bits(d, seen.doubtful);
   if (active == 0 || (doubtful == 0 && std::is_same_v<hn::TFromD<D>, Element<Rows>>)) {
     if (touched) mark(touched + at, lanes, active);
     // Nothing is converted on the way out: what is not touched may be stored as it came.
-    if (active != 0) store_pixels(d, select(seen.active, seen.rgb, p.rgb), rows, at, alpha);
+    if (active != 0) store_pixels(d, chosen(seen.active, seen.rgb, p.rgb), rows, at, alpha);
     return;
   }
   Results<Element<Rows>> out;
@@ -91,12 +102,12 @@ HWY_INLINE void store_mixed(D d, const WideConstants<double>& exact, const Pixel
 
 // One vector of pixels at `at`.
 template <StageSet stages, Receptors receptors, class D, class Rows>
-HWY_INLINE void apply_vector(const PixelOperator<D, stages, receptors>& op, const WideConstants<double>& exact,
+HWY_INLINE void apply_vector(const PixelStages<LaneNumbers<D>, stages, receptors>& op, const WideConstants<double>& exact,
                              const Rows& rows, std::size_t at, std::uint8_t* touched) {
   const D d;
   auto alpha = hn::Zero(hn::Rebind<Element<Rows>, D>());
   const auto p = load_pixels<receptors>(d, rows, at, alpha);
-  typename PixelOperator<D, stages, receptors>::Seen seen;
+  typename PixelStages<LaneNumbers<D>, stages, receptors>::Seen seen;
   if (!op(p, seen)) {
     if (touched) std::memset(touched + at, 0, hn::Lanes(d));
     return;
@@ -112,19 +123,19 @@ HWY_INLINE void apply_vector(const PixelOperator<D, stages, receptors>& op, cons
 template <typename T, class Rows>
 HWY_NOINLINE void apply_any(const WideConstants<T>& main, const WideConstants<double>& exact, const Rows& rows,
                             std::size_t at, std::uint8_t* touched) {
-  apply_vector(PixelOperator<Tag<T>>(Tag<T>(), main), exact, rows, at, touched);
+  apply_vector(Fused<Tag<T>>(main), exact, rows, at, touched);
 }
 
 // Two vectors of pixels, side by side: either waits for its own results alone.
 template <StageSet stages, Receptors receptors, class D, class Rows>
-HWY_INLINE void apply_pair(const PixelOperator<lanes::PairTag<D>, stages, receptors>& op,
+HWY_INLINE void apply_pair(const PixelStages<LaneNumbers<lanes::PairTag<D>>, stages, receptors>& op,
                            const WideConstants<double>& exact, const Rows& rows, std::size_t at,
                            std::uint8_t* touched) {
   const D d;
   const std::size_t second = at + hn::Lanes(d);
   auto alpha_a = hn::Zero(hn::Rebind<Element<Rows>, D>()), alpha_b = alpha_a;
   const auto a = load_pixels<receptors>(d, rows, at, alpha_a), b = load_pixels<receptors>(d, rows, second, alpha_b);
-  typename PixelOperator<lanes::PairTag<D>, stages, receptors>::Seen seen;
+  typename PixelStages<LaneNumbers<lanes::PairTag<D>>, stages, receptors>::Seen seen;
   if (!op(paired(a, b), seen)) {
     if (touched) std::memset(touched + at, 0, 2 * hn::Lanes(d));
     return;
@@ -169,12 +180,12 @@ void apply_stages(const WideConstants<T>& main, const WideConstants<double>& exa
   if (rows.count >= worth_aligning * lanes) at = before_aligned(rows, lanes);
   if (at) apply_part(main, exact, rows, 0, at, touched);
   if constexpr (in_pairs(stages)) {
-    const PixelOperator<PairOf<D>, stages, receptors> op(PairOf<D>(), main);
+    const Fused<PairOf<D>, stages, receptors> op(main);
     for (; at + 2 * lanes <= rows.count; at += 2 * lanes) apply_pair(op, exact, rows, at, touched);
   } else if constexpr (stages == StageSet::any) {
     for (; at + lanes <= rows.count; at += lanes) apply_any(main, exact, rows, at, touched);
   } else {
-    const PixelOperator<D, stages, receptors> op(D(), main);
+    const Fused<D, stages, receptors> op(main);
     for (; at + lanes <= rows.count; at += lanes) apply_vector(op, exact, rows, at, touched);
   }
   for (; at < rows.count; at += lanes)
@@ -188,7 +199,7 @@ void apply_rgb(const WideConstants<T>& main, const WideConstants<double>& exact,
                std::uint8_t* touched) {
   constexpr Receptors absent = Receptors::absent;
   constexpr bool is_float = std::is_same_v<T, float>, planes = std::is_same_v<Rows, PixelRows>;
-  const StageSet stages = main.numbers.stages();
+  const StageSet stages = stage_set(main.on);
   if constexpr (is_float || planes)
     if (stages == StageSet::all) return apply_stages<StageSet::all, absent>(main, exact, rows, touched);
   if constexpr (planes || (is_float && std::is_same_v<Rows, RgbaRows<float>>))
@@ -204,14 +215,14 @@ void apply_rgb(const WideConstants<T>& main, const WideConstants<double>& exact,
 template <typename T, class Rows>
 void apply_type(const WideConstants<T>& main, const WideConstants<double>& exact, const Rows& rows,
                 std::uint8_t* touched) {
-  if (!main.numbers.safko && !(main.numbers.adaptation < T(photopic_luminance))) {
+  if (!main.on.safko && !(main.numbers.weight.adaptation < T(photopic_luminance))) {
     if (touched) std::memset(touched, 0, rows.count);
     return;
   }
   if constexpr (std::is_same_v<Rows, PixelRows>) {
     const bool cones = rows.cone_l, rod = rows.rod;
     if constexpr (std::is_same_v<T, float>)
-      if (cones && rod && main.numbers.stages() == StageSet::all)
+      if (cones && rod && stage_set(main.on) == StageSet::all)
         return apply_stages<StageSet::all, Receptors::given>(main, exact, rows, touched);
     if (cones || rod) return apply_stages<StageSet::any, Receptors::maybe>(main, exact, rows, touched);
   }

@@ -14,8 +14,8 @@
 #include <cstdint>
 
 #include "batch/batch.h"
-#include "batch/batch_pixels-inl.h"
 #include "batch/half-inl.h"
+#include "batch/lane_numbers-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace scotopic::HWY_NAMESPACE {
@@ -74,7 +74,7 @@ HWY_INLINE void store(D d, hn::Vec<D> v, E* to) {
 
 // Loads a vector of pixels; `alpha` is for the layout that has it. With the receptors of `receptors`.
 template <Receptors receptors, class D>
-HWY_INLINE PixelVector<hn::Vec<D>> load_pixels(D d, const PixelRows& rows, std::size_t at,
+HWY_INLINE PixelIn<hn::Vec<D>> load_pixels(D d, const PixelRows& rows, std::size_t at,
                                                ElementVector<D, float>&) {
   const auto zero = hn::Zero(d);
   const Triple<hn::Vec<D>> rgb = {load(d, rows.r + at), load(d, rows.g + at), load(d, rows.b + at)};
@@ -93,13 +93,13 @@ HWY_INLINE PixelVector<hn::Vec<D>> load_pixels(D d, const PixelRows& rows, std::
           true};
 }
 template <Receptors, class D>
-HWY_INLINE PixelVector<hn::Vec<D>> load_pixels(D d, const HalfRows& rows, std::size_t at,
+HWY_INLINE PixelIn<hn::Vec<D>> load_pixels(D d, const HalfRows& rows, std::size_t at,
                                                ElementVector<D, std::uint16_t>&) {
   const auto zero = hn::Zero(d);
   return {{load(d, rows.r + at), load(d, rows.g + at), load(d, rows.b + at)}, {zero, zero, zero}, zero, false, false};
 }
 template <Receptors, class D, typename E>
-HWY_INLINE PixelVector<hn::Vec<D>> load_pixels(D d, const RgbaRows<E>& rows, std::size_t at,
+HWY_INLINE PixelIn<hn::Vec<D>> load_pixels(D d, const RgbaRows<E>& rows, std::size_t at,
                                                ElementVector<D, E>& alpha) {
   auto r = alpha, g = alpha, b = alpha;
   hn::LoadInterleaved4(hn::Rebind<E, D>(), rows.rgba + 4 * at, r, g, b, alpha);

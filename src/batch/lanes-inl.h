@@ -67,6 +67,16 @@ SCOTOPIC_TWO(Le)
 SCOTOPIC_TWO(Gt)
 SCOTOPIC_TWO(Ge)
 SCOTOPIC_TWO(Ne)
+#define SCOTOPIC_OPERATOR(symbol, name)                                                \
+  template <class V>                                                                   \
+  HWY_INLINE Pair<V> operator symbol(const Pair<V>& x, const Pair<V>& y) {             \
+    return {hn::name(x.a, y.a), hn::name(x.b, y.b)};                                   \
+  }
+SCOTOPIC_OPERATOR(+, Add)
+SCOTOPIC_OPERATOR(-, Sub)
+SCOTOPIC_OPERATOR(*, Mul)
+SCOTOPIC_OPERATOR(/, Div)
+#undef SCOTOPIC_OPERATOR
 #undef SCOTOPIC_ONE
 #undef SCOTOPIC_TWO
 

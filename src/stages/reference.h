@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "stages/shared/constants.h"
-#include "stages/shared/projection.h"
+#include "stages/shared/stage_constants.h"
 
 namespace scotopic {
 
@@ -31,24 +31,13 @@ class AppearanceReference {
   const OperatorConstants& constants() const noexcept { return c_; }
 
  private:
-  struct Light;  // what later stages still need of the input
-
-  Vec3<double> shifted(const Light& in) const noexcept;
-  Vec3<double> projected(const Vec3<double>& rgb, const Vec3<double>& in) const noexcept;
-  Vec3<double> with_luminance(const Vec3<double>& rgb, const Light& in) const noexcept;
-  Vec3<double> with_chroma(const Vec3<double>& rgb, double local_luminance) const noexcept;
-  Vec3<double> safko(const ReferencePixel& pixel) const noexcept;
-
   OperatorConstants c_;
-  std::optional<GamutProjection<double>> projection_;
-  Matrix3<double> rgb_from_lms_cat02_;
+  StageConstants<double> k_;
+  StageSwitches on_;
 };
 
 /// r in luminance units per image unit, from linear RGB; never negative.
 double rod_signal_from_rgb(const OperatorConstants& constants, const Vec3<double>& rgb) noexcept;
-
-/// Y_out of the luminance policy, image units. `rod` as above, `m` the mesopic adaptation coefficient.
-double policy_luminance(const OperatorConstants& constants, double photopic, double rod, double m) noexcept;
 
 /// Factor that takes a colour of luminance `from` to `to` at constant chromaticity:
 ///   max(0, u to/f + (1 - u^2)),  f = max(|from|, luminance_floor * largest),  u = from/f,
