@@ -20,17 +20,17 @@ namespace scotopic::HWY_NAMESPACE {
 
 // As wide as the machine's vectors, but no wider than constants are laid out for.
 template <typename T>
-using Tag = hn::CappedTag<T, WideConstants<T>::lanes>;
+using Tag = hn::CappedTag<T, 64 / sizeof(T)>;
 
-/// D: a Highway tag, or lanes::PairTag of one, for two vectors side by side.
-template <class D>
+/// D: a Highway tag, or lanes::PairTag of one, for two vectors side by side. Constants: what constant() takes members of.
+template <class D, class Constants = StageConstants<typename lanes::Types<D>::T>>
 class LaneNumbers {
  public:
   using T = typename lanes::Types<D>::T;
   using V = typename lanes::Types<D>::V;
   using M = typename lanes::Types<D>::M;
 
-  explicit LaneNumbers(const WideConstants<T>& wide) : wide_(wide) {}
+  explicit LaneNumbers(const WideNumbers<Constants>& wide) : wide_(wide) {}
 
   HWY_INLINE V constant(const T& x) const { return lanes::Load(D(), wide_.of(x)); }
   HWY_INLINE V number(T x) const { return lanes::Set(D(), x); }
@@ -53,6 +53,24 @@ class LaneNumbers {
   HWY_INLINE V kept(M m, V x) const { return lanes::IfThenElseZero(m, x); }
   HWY_INLINE V dropped(M m, V x) const { return lanes::IfThenZeroElse(m, x); }
 
+  /// e^x for x <= 0, to 2 ulp; below -20 (float) or -40 (double), where 1 - e^x is 1, e of that.
+  HWY_INLINE V exp(V x) const {
+    constexpr bool is_float = sizeof(T) == 4;
+    const D d;
+    const typename lanes::Types<D>::Signed di;
+    const V bounded = max(x, number(is_float ? T(-20) : T(-40)));
+    // Adding 1.5 2^mantissa rounds to a whole number, which then stands in the last bits.
+    const V magic = number(is_float ? T(0x1.8p23) : T(0x1.8p52));
+    const V shifted = bounded * number(T(std::numbers::log2e)) + magic;
+    const V octaves = shifted - magic;
+    const V r = (bounded - octaves * number(T(is_float ? 0x1.62ep-1 : 0x1.62e42fefap-1))) -
+                octaves * number(T(is_float ? 0x1.0bfbe8p-15 : 0x1.cf79abc9e3b39p-40));
+    V sum = number(T(1) / factorial(is_float ? 7 : 13));
+    for (int k = is_float ? 6 : 12; k >= 0; --k) sum = sum * r + number(T(1) / factorial(k));
+    const auto exponent = hn::ShiftLeft<is_float ? 23 : 52>(hn::BitCast(di, shifted));
+    return hn::BitCast(d, hn::Add(hn::BitCast(di, sum), exponent));
+  }
+
   /// 1 - m, by MesopicFit.
   HWY_INLINE V rod_share(V local, const WeightConstants<T>& k) const {
     const V low = constant(k.scotopic_limit);
@@ -64,6 +82,8 @@ class LaneNumbers {
   }
 
  private:
+  static constexpr T factorial(int k) { return k <= 1 ? T(1) : T(k) * factorial(k - 1); }
+
   using I = hwy::MakeSigned<T>;
 
   // Of positive normal x.
@@ -83,7 +103,7 @@ class LaneNumbers {
     return exponent + s * polynomial(*this, k.log_series, s * s);
   }
 
-  const WideConstants<T>& wide_;
+  const WideNumbers<Constants>& wide_;
 };
 
 template <class V>

@@ -8,21 +8,34 @@
 #include <cstdint>
 #include <cstring>
 #include <new>
+#include <type_traits>
+#include <utility>
 
+#include "stages/display/night_display.h"
 #include "stages/shared/stage_constants.h"
 
 namespace scotopic {
 
-/// A constant is then an operand in memory, and takes no instruction of its own. (Too many for registers, they would be
-/// spread again for each use.)
 template <typename T>
-class WideConstants {
+const T& first_number(const StageConstants<T>& k) {
+  return k.weight.unit;
+}
+template <typename T>
+const T& first_number(const DisplayConstants<T>& k) {
+  return k.scale;
+}
+
+/// A constant is then an operand in memory, and takes no instruction of its own. (Too many for registers, they would be
+/// spread again for each use.) Constants: a struct of nothing but numbers of its type T.
+template <class Constants>
+class WideNumbers {
  public:
+  using T = std::remove_cvref_t<decltype(first_number(std::declval<const Constants&>()))>;
   static constexpr std::size_t lanes = 64 / sizeof(T);
 
   /// Spreads each number.
-  explicit WideConstants(const OperatorConstants& c)
-      : numbers(c), on(c), wide_(hwy::AllocateAligned<T>(count * lanes)) {
+  explicit WideNumbers(const Constants& constants)
+      : numbers(constants), wide_(hwy::AllocateAligned<T>(count * lanes)) {
     if (!wide_) throw std::bad_alloc();
     for (std::size_t i = 0; i < count; ++i) {
       T number{};
@@ -30,10 +43,9 @@ class WideConstants {
       std::fill_n(wide_.get() + i * lanes, lanes, number);
     }
   }
-  WideConstants(WideConstants&&) = delete;  // of() takes addresses
+  WideNumbers(WideNumbers&&) = delete;  // of() takes addresses
 
-  const StageConstants<T> numbers;
-  const StageSwitches on;
+  const Constants numbers;
 
   /// `number`, one of those in `numbers`, in every lane; aligned to 64 bytes.
   const T* of(const T& number) const noexcept {
@@ -42,9 +54,17 @@ class WideConstants {
   }
 
  private:
-  static constexpr std::size_t count = sizeof(StageConstants<T>) / sizeof(T);
-  static_assert(sizeof(StageConstants<T>) % sizeof(T) == 0 && alignof(StageConstants<T>) == alignof(T));
+  static constexpr std::size_t count = sizeof(Constants) / sizeof(T);
+  static_assert(sizeof(Constants) % sizeof(T) == 0 && alignof(Constants) == alignof(T));
   hwy::AlignedFreeUniquePtr<T[]> wide_;
+};
+
+/// Those of the operator's pixel stages.
+template <typename T>
+struct WideConstants : WideNumbers<StageConstants<T>> {
+  explicit WideConstants(const OperatorConstants& c) : WideNumbers<StageConstants<T>>(StageConstants<T>(c)), on(c) {}
+
+  const StageSwitches on;
 };
 
 }  // namespace scotopic

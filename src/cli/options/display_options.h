@@ -7,7 +7,7 @@
 #include <string>
 
 #include "cli/console.h"
-#include "stages/display/display.h"
+#include "stages/display/local/display.h"
 #include "pipeline/apply_image.h"
 
 namespace scotopic {

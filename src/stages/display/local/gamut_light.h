@@ -6,7 +6,7 @@
 
 #include "stages/shared/projection.h"
 #include "stages/table.h"
-#include "stages/display/display.h"
+#include "stages/display/local/display.h"
 #include "receptors/receptor_space.h"
 
 namespace scotopic {

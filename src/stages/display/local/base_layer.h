@@ -2,8 +2,8 @@
 #pragma once
 
 #include "stages/acuity/filter.h"
-#include "stages/display/display.h"
-#include "stages/display/gamut_light.h"
+#include "stages/display/local/display.h"
+#include "stages/display/local/gamut_light.h"
 
 namespace scotopic {
 

@@ -1,4 +1,4 @@
-#include "stages/display/base_layer.h"
+#include "stages/display/local/base_layer.h"
 
 #include <cmath>
 #include <limits>

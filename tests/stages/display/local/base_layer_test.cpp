@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <limits>
 
-#include "stages/display/display.h"
-#include "stages/display/picture.h"
+#include "stages/display/local/display.h"
+#include "stages/display/local/picture.h"
 
 namespace scotopic::test {
 namespace {

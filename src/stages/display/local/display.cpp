@@ -1,4 +1,4 @@
-#include "stages/display/display.h"
+#include "stages/display/local/display.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 
 #include "adaptation/mesopic.h"
 #include "stages/shared/mesopic_fit.h"
-#include "stages/display/base_layer.h"
-#include "stages/display/gamut_light.h"
+#include "stages/display/local/base_layer.h"
+#include "stages/display/local/gamut_light.h"
 
 namespace scotopic {
 namespace {

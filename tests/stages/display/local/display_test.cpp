@@ -1,5 +1,5 @@
 // What a display is sent: range, order, colour, and what must not break it.
-#include "stages/display/display.h"
+#include "stages/display/local/display.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "adaptation/mesopic.h"
-#include "stages/display/picture.h"
+#include "stages/display/local/picture.h"
 
 namespace scotopic::test {
 namespace {
