@@ -279,6 +279,34 @@ bool ColourConfig::is_srgb(const ColourSpace& space) const {
   return true;
 }
 
+ColourSpace ColourConfig::display_space(const std::string& name) const {
+  if (has_space(name)) return space(name);
+  std::vector<std::string> known = names();
+  for (const std::string& display : displays()) known.push_back(display);
+  fail("no display or colour space is called '" + name + "'" + did_you_mean(name, known));
+}
+
+std::optional<ColourConfig::Encoding> ColourConfig::encoding(const ColourSpace& space) const {
+  if (space.for_a_device()) return std::nullopt;
+  const RowConverter convert = to_working(space);
+  Matrix3<double> working;
+  for (std::size_t i = 0; i < 3; ++i) {
+    float p[3] = {};
+    p[i] = 1;
+    convert.apply(&p[0], &p[1], &p[2], 1);
+    for (std::size_t k = 0; k < 3; ++k) working[k][i] = static_cast<double>(p[k]);
+  }
+  Encoding out;
+  const Matrix3<double> xyz = xyz_from_working_ * working;
+  out.white = xyz[1][0] + xyz[1][1] + xyz[1][2];
+  if (!(out.white > 1e-6) || !std::isfinite(out.white) || !(std::abs(determinant(xyz)) > 0)) return std::nullopt;
+  out.xyz_from_rgb = (1 / out.white) * xyz;
+  // In float, the last digits of such a matrix are OpenColorIO's: those of a known space are exact.
+  if (const NamedPrimaries* known = match_matrix(out.xyz_from_rgb))
+    out.xyz_from_rgb = xyz_d65_from_rgb(known->primaries);
+  return out;
+}
+
 std::optional<Matrix3<double>> ColourConfig::linear_xyz(const ColourSpace& space) const {
   if (space.xyz_from_rgb) return space.xyz_from_rgb;
   if (space.for_a_device()) return std::nullopt;

@@ -104,6 +104,16 @@ class ColourConfig {
   /// Whether values of the space are the encoded ones of IEC 61966-2-1, BT.709 primaries.
   bool is_srgb(const ColourSpace& space) const;
 
+  /// The space of what a display is sent: a display's name, where a space is called like it, or a space.
+  ColourSpace display_space(const std::string& name) const;
+  /// What an encoded space's code 1 of R, G, B stands for.
+  struct Encoding {
+    Matrix3<double> xyz_from_rgb;  ///< of its linear light; white has Y = 1
+    double white = 1;              ///< luminance of (1, 1, 1), where 1 is the working space's white
+  };
+  /// nullopt where such codes are no colours of finite light, or where white is none.
+  std::optional<Encoding> encoding(const ColourSpace& space) const;
+
   /// CIE XYZ (D65-adapted) from the space's RGB; nullopt if it is not linear light.
   std::optional<Matrix3<double>> linear_xyz(const ColourSpace& space) const;
 

@@ -18,15 +18,18 @@
 namespace scotopic {
 namespace {
 
+const RowOperator nothing_shown;
+
 /// One picture's way through the operator.
 class PictureRun {
  public:
   PictureRun(const PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-             const RowOperator& apply, const OutputPicture& out)
+             const RowOperator& apply, const OutputPicture& out, const RowOperator& show = nothing_shown)
       : light_(*layout.light_of(out.source)),
         source_picture_(source.pictures()[out.source]),
         out_(out),
         apply_(apply),
+        show_(show),
         reader_(light_.channels, config, light_.space) {
     writer_.from_working = config.from_working(layout.output_space);
     writer_.gain = static_cast<float>(std::exp2(layout.exposure));
@@ -143,7 +146,7 @@ class PictureRun {
   }
 
   /// Nothing is called for, and nothing else changes values: the file's own bytes go through.
-  bool copies() const { return !apply_ && writer_.keep_untouched && !reader_.receptors(); }
+  bool copies() const { return !apply_ && !show_ && writer_.keep_untouched && !reader_.receptors(); }
 
   void copy_row(const Band& in, int row, LightRow& room, const Band& out) const {
     bool finite = true;
@@ -167,6 +170,7 @@ class PictureRun {
   }
 
   void write_row(const Band& in, int row, LightRow& light, const Band& out) const {
+    if (show_) show_(light.pixels(false), light.touched.data());
     const NativeRow targets[3] = {out.channels[0].row(row), out.channels[1].row(row),
                                   out.channels[2].row(row)};
     if (reader_.receptors()) {
@@ -217,6 +221,7 @@ class PictureRun {
   const Picture& source_picture_;
   const OutputPicture& out_;
   const RowOperator& apply_;
+  const RowOperator& show_;
   LightReader reader_;
   LightWriter writer_;
   std::vector<std::size_t> others_;  // channel of the source for each output channel after R, G, B
@@ -335,7 +340,7 @@ LuminanceHistogram measure_base(PixelSource& source, const ImageLayout& layout, 
 
 std::uint64_t apply_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
                           const RowOperator& apply, OutputFile& file, const Progress& progress,
-                          const SpatialFilters& filters) {
+                          const SpatialFilters& filters, const RowOperator& show) {
   const std::unique_ptr<PixelSink> sink = open_sink(layout.format, file, source, layout.outputs);
   const std::int64_t total = rows_to_write(layout);
   std::int64_t done = 0;
@@ -347,7 +352,7 @@ std::uint64_t apply_image(PixelSource& source, const ImageLayout& layout, const 
       sink->copy(i);
       continue;
     }
-    const PictureRun run(source, layout, config, apply, layout.outputs[i]);
+    const PictureRun run(source, layout, config, apply, layout.outputs[i], show);
     const Picture& picture = source.pictures()[layout.outputs[i].source];
     // OpenEXR wants the rows in the order that its header states, the other formats from the top.
     const bool descending = picture.descending && layout.format == "openexr";

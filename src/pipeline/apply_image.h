@@ -20,6 +20,7 @@
 
 #include "stages/acuity/filter.h"
 #include "batch/batch.h"
+#include "stages/display/night_display.h"
 #include "color/colour_config.h"
 #include "pipeline/light_path.h"
 #include "io/pixel_sink.h"
@@ -28,12 +29,18 @@
 
 namespace scotopic {
 
+/// Whether the display stage runs: on pictures that are looked at as they are (PNG, JPEG, TIFF of whole numbers, where
+/// neither a colour space nor a profile is asked for), always, or never.
+enum class NightDisplayMode { where_looked_at, always, never };
+
 /// What the user says about a file's colour and its output; what is not said is found in the file.
 struct ImageRequest {
   std::string layer;                       ///< --layer: a channel prefix or the name of a part
   std::optional<std::string> colourspace;  ///< of the input
   std::optional<std::string> output_colourspace;
   std::optional<std::string> view;                      ///< --display: [DISPLAY/]VIEW, in place of a colour space
+  NightDisplayMode night = NightDisplayMode::where_looked_at;
+  std::string night_display;                            ///< whose encoding; empty: the output file's
   std::shared_ptr<const IccProfile> profile = nullptr;  ///< --icc, likewise
   int jpeg_quality = 95;
   std::optional<PixelType> type;  ///< of the output's colour channels
@@ -48,6 +55,13 @@ struct LightPicture {
   std::string space_reason;  ///< how the space was found
 };
 
+/// The display that a result is encoded for.
+struct NightOutput {
+  Matrix3<double> xyz_from_display = identity3<double>();
+  Shoulder shoulder = Shoulder::bend;
+  double greatest = 0;  ///< that the input can hold, in working RGB; 0: no bound
+};
+
 /// What a file will become; no pixel is read. `notes` are for the user: what the output cannot hold.
 struct ImageLayout {
   std::string format;
@@ -55,6 +69,7 @@ struct ImageLayout {
   std::vector<OutputPicture> outputs;
   ColourSpace output_space;
   double exposure = 0;
+  std::optional<NightOutput> night;  ///< the display stage runs
   std::vector<std::string> notes;
 
   /// The light of that picture of the source; nullptr: it holds none.
@@ -89,11 +104,11 @@ LuminanceHistogram measure_base(PixelSource& source, const ImageLayout& layout, 
                                 const RowOperator& apply, const SpatialFilters& filters);
 
 /// Writes the whole output. Without `apply` (empty) nothing is called for: where nothing else changes values either,
-/// the file's own bytes go through. `filters` are applied last, to each picture by itself. Same bytes for any number of
+/// the file's own bytes go through. `filters` are applied after it, to each picture by itself, `show` last. Same bytes for any number of
 /// threads. Returns how many pixels with a component that is not finite went through without `apply`.
 std::uint64_t apply_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
                           const RowOperator& apply, OutputFile& file, const Progress& progress = nullptr,
-                          const SpatialFilters& filters = {});
+                          const SpatialFilters& filters = {}, const RowOperator& show = {});
 
 /// Threads for rows and for OpenEXR's chunks; 0: one for each processor.
 void set_threads(int count);

@@ -1,5 +1,6 @@
 // What the output will hold: decided from headers alone.
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "pipeline/apply_image.h"
@@ -138,19 +139,68 @@ PixelType output_type(const std::string& format, const std::string& output, Pixe
   return format == "png" ? PixelType::uint16 : PixelType::float32;
 }
 
+/// Whether what is written is looked at as it is.
+bool is_looked_at(const std::string& format, PixelType out, const ImageRequest& request) {
+  if (request.night != NightDisplayMode::where_looked_at) return request.night == NightDisplayMode::always;
+  if (request.output_colourspace || request.view || request.profile) return false;
+  return format == "png" || format == "jpeg" || (format == "tiff" && is_integer(out));
+}
+
+/// Codes that a display takes: 1 is its white.
+bool is_display_encoding(const ColourConfig& config, const ColourSpace& space) {
+  const auto encoding = config.encoding(space);
+  return encoding && std::abs(encoding->white - 1) < 1e-3 && !config.linear_xyz(space);
+}
+
+/// The space that the display stage's result is encoded in: as asked, else the input's where that is a display's, else
+/// that of the output's name.
+ColourSpace night_space(const std::string& output, const ColourConfig& config, const ImageRequest& request,
+                        const LightPicture& light, bool from_integer) {
+  if (!request.night_display.empty()) return config.display_space(request.night_display);
+  if (from_integer && is_display_encoding(config, light.space)) return light.space;
+  const ColourSpace named = config.space_of_file(output, true);
+  if (is_display_encoding(config, named)) return named;
+  throw Error(ExitCode::config, config.file(),
+              "says of " + output + " that it holds '" + named.name +
+                  "', which is no display's encoding: name a display (--display night:DISPLAY), or --display none");
+}
+
+/// The display stage's part of the layout.
+NightOutput night_output(const ColourConfig& config, const ColourSpace& space, const LightPicture& light,
+                         bool from_integer) {
+  NightOutput out;
+  const auto encoding = config.encoding(space);
+  if (!encoding)
+    throw Error(ExitCode::config, config.file(), "'" + space.name + "' is no encoding of a display's R, G, B");
+  out.xyz_from_display = encoding->xyz_from_rgb;
+  if (!from_integer) return out;
+  if (const auto input = config.encoding(light.space)) {
+    const Matrix3<double> to_display = inverse(encoding->xyz_from_rgb) * input->xyz_from_rgb;
+    for (const Vec3<double>& row : to_display.rows)
+      out.greatest = std::max(out.greatest, input->white * (std::max(0.0, row[0]) + std::max(0.0, row[1]) +
+                                                            std::max(0.0, row[2])));
+  }
+  return out;
+}
+
 /// Light stays in its space where the output holds the same kind of numbers; else the config's rules for the
 /// output's name decide.
 ColourSpace choose_output_space(const PixelSource& source, const std::string& output,
                                 const ColourConfig& config, const ImageRequest& request,
-                                const ImageLayout& layout) {
-  if (request.output_colourspace) return config.space(*request.output_colourspace);
-  if (request.view) return config.view(*request.view);
-  if (request.profile) return {request.profile->description(), std::nullopt, std::nullopt, request.profile};
+                                ImageLayout& layout) {
   const LightPicture& light = layout.light.front();
   const Picture& picture = source.pictures()[light.index];
   const bool receptors = light.channels.kind == Kind::lmsr || light.channels.kind == Kind::computed;
   const PixelType in = receptors ? PixelType::float32 : picture.channels[light.channels.index[0]].type;
   const PixelType out = output_type(layout.format, output, in, request);
+  if (is_looked_at(layout.format, out, request)) {
+    const ColourSpace space = night_space(output, config, request, light, is_integer(in));
+    layout.night = night_output(config, space, light, is_integer(in));
+    return space;
+  }
+  if (request.output_colourspace) return config.space(*request.output_colourspace);
+  if (request.view) return config.view(*request.view);
+  if (request.profile) return {request.profile->description(), std::nullopt, std::nullopt, request.profile};
   if (is_integer(in) == is_integer(out)) return light.space;
   return is_integer(out) ? config.space_of_file(output, true) : config.space(config.working_space());
 }

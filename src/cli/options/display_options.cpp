@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "cli/options/values.h"
 
@@ -22,18 +23,47 @@ DisplayRange parse_range(const std::string& text) {
   return out;
 }
 
-/// Options that only the tone map knows.
-void refuse_idle_options(const DisplayOptions& o) {
+using Given = std::pair<const char*, bool>;
+
+/// The first of the options that was given.
+std::string first_given(const std::vector<Given>& options) {
+  for (const auto& [name, changed] : options)
+    if (changed) return name;
+  return "";
+}
+
+[[noreturn]] void refuse(const std::string& option, const char* what) {
+  throw Error(ExitCode::usage, "", option + " is of " + what);
+}
+
+/// Options of a stage that does not run.
+void refuse_idle_options(const DisplayOptions& o, DisplayChoice& choice, const ImageRequest& request) {
   const DisplayOptions usual;
-  const std::array<std::pair<const char*, bool>, 5> given = {
-      {{"--contrast", o.contrast != usual.contrast},
-       {"--peak", o.peak != usual.peak},
-       {"--night-range", o.night_range != usual.night_range},
-       {"--night-exponent", o.night_exponent != usual.night_exponent},
-       {"--display-range", o.range != usual.range}}};
-  for (const auto& [name, changed] : given)
-    if (changed)
-      throw Error(ExitCode::usage, "", std::string(name) + " is of the tone map: --display, or --tone local");
+  const std::string of_tone = first_given({{"--contrast", o.contrast != usual.contrast},
+                                           {"--night-range", o.night_range != usual.night_range},
+                                           {"--night-exponent", o.night_exponent != usual.night_exponent},
+                                           {"--display-range", o.range != usual.range}});
+  if (!choice.tone && !of_tone.empty()) refuse(of_tone, "the tone map: --tone local");
+  choice.of_night = first_given({{"--visibility", o.visibility != usual.visibility},
+                                 {"--viewing-adaptation", o.viewing != usual.viewing},
+                                 {"--strength-display", o.strength != usual.strength},
+                                 {"--peak", o.peak != usual.peak && !choice.tone}});
+  if (request.night == NightDisplayMode::never && !choice.of_night.empty())
+    refuse(choice.of_night, "the display stage: --display night");
+}
+
+/// night, night:DISPLAY, none, or a view.
+void set_display(const std::string& text, ImageRequest& request) {
+  constexpr std::string_view night = "night:";
+  if (text.empty()) return;
+  request.night = NightDisplayMode::never;
+  if (text == "none") return;
+  if (text == "night" || text.rfind(night, 0) == 0) {
+    request.night = NightDisplayMode::always;
+    request.night_display = text == "night" ? "" : text.substr(night.size());
+  } else {
+    request.view = text;
+  }
 }
 
 }  // namespace
@@ -42,9 +72,14 @@ void add_display_options(CLI::App& verb, DisplayOptions& o) {
   const auto add = [&](const char* name, std::string& value, const char* text, const char* kind) {
     verb.add_option(name, value, text)->type_name(kind)->group("Display");
   };
-  add("--display", o.view, "Write what a display is sent under a view of the config", "[DISPLAY/]VIEW");
-  add("--tone", o.tone,
-      "local (default with --display): a bilateral tone map to the display's range; or none", "NAME");
+  add("--display", o.display,
+      "night[:DISPLAY]: as dark as the eye sees it (default for PNG, JPEG and TIFF of whole numbers); none: values alone "
+      "(default for the rest); or a view of the config, as it is",
+      "WHAT");
+  add("--visibility", o.visibility, "What just visible means: hdrvdp2 (default) or ward1997", "RULE");
+  add("--viewing-adaptation", o.viewing, "What eyes at the display are adapted to (default 18)", "CDM2");
+  add("--strength-display", o.strength, "How much of the dimming is shown (default 1)", "X");
+  add("--tone", o.tone, "local: the literature's bilateral tone map in place of the display stage", "NAME");
   add("--contrast", o.contrast, "Span of large shapes on a display of 100 cd/m2 (default 5)", "X");
   add("--peak", o.peak, "Greatest luminance of the display (default 100)", "CDM2");
   add("--night-range", o.night_range, "Share of that left to what rods alone see (default 0.35; 1: all)",
@@ -57,18 +92,25 @@ void add_display_options(CLI::App& verb, DisplayOptions& o) {
 
 DisplayChoice understand(const DisplayOptions& o, ImageRequest& request) {
   DisplayChoice out;
-  if (!o.view.empty()) request.view = o.view;
-  if (request.view && request.output_colourspace)
+  set_display(o.display, request);
+  if ((request.view || request.night == NightDisplayMode::always) && request.output_colourspace)
     throw Error(ExitCode::usage, "", "either --display or --output-colorspace, not both");
-  out.tone = request.view.has_value();
   if (!o.tone.empty()) out.tone = choice<bool>("--tone", o.tone, {{"local", true}, {"none", false}});
+  if (out.tone && request.night == NightDisplayMode::always)
+    throw Error(ExitCode::usage, "", "either --display night or --tone local, not both");
+  if (out.tone) request.night = NightDisplayMode::never;
+  out.night.rule = choice<VisibilityRule>(
+      "--visibility", o.visibility, {{"hdrvdp2", VisibilityRule::hdrvdp2}, {"ward1997", VisibilityRule::ward1997}});
+  out.night.viewing = number_in("--viewing-adaptation", o.viewing, 1e-3, 1e5, "a luminance in cd/m2, 0.001 to 1e5");
+  out.night.strength = number_in("--strength-display", o.strength, 0, 1, "a share from 0 to 1");
   DisplayParameters& p = out.parameters;
   p.contrast = number_in("--contrast", o.contrast, 1, 1e6, "a ratio of luminances, 1 to 1e6");
   p.peak = number_in("--peak", o.peak, 1, 1e5, "a luminance in cd/m2, 1 to 1e5");
   p.night_range = number_in("--night-range", o.night_range, 0, 1, "a share from 0 to 1");
   p.night_exponent = number_in("--night-exponent", o.night_exponent, 0.01, 100, "a power, 0.01 to 100");
   if (o.range != "auto") out.range = parse_range(o.range);
-  if (!out.tone) refuse_idle_options(o);
+  out.night.peak = p.peak;
+  refuse_idle_options(o, out, request);
   return out;
 }
 
@@ -123,8 +165,39 @@ DisplayStage display_stage(const DisplayChoice& choice, const AppearanceParamete
   return out;
 }
 
+void refuse_idle_options(const DisplayChoice& choice, const ImageLayout& layout) {
+  if (!layout.night && !choice.of_night.empty())
+    refuse(choice.of_night, "the display stage, which this output has only with --display night");
+}
+
+ShownNight night_stage(const DisplayChoice& choice, const AppearanceParameters& scene, Precision precision,
+                       const std::string& file, ImageLayout& layout, const Console& console) {
+  ShownNight out;
+  if (!layout.night) return out;
+  NightDisplayParameters p = choice.night;
+  p.adaptation = scene.adaptation;
+  p.white_luminance = scene.white_luminance * std::exp2(layout.exposure);
+  p.xyz_from_rgb = scene.xyz_from_rgb;
+  p.xyz_from_display = layout.night->xyz_from_display;
+  const double scale = display_scale(p), stops = p.strength * visibility_stops(p.adaptation, p.rule, p.viewing);
+  // By what the format can hold, not by what a frame holds: a shot does not change.
+  if (layout.night->greatest > 0 && scale * layout.night->greatest <= 1 + 1e-6) p.shoulder = Shoulder::clip;
+  layout.exposure = std::log2(p.peak / display_unit);
+  out.batch = std::make_shared<const DisplayBatch>(p, precision);
+  console.note(fmt::format("{}: display '{}' of {:g} cd/m2: {:.2f} stops darker than by day, white is {:.3g} cd/m2 of the "
+                           "scene{}", file, layout.output_space.name, p.peak, std::abs(stops), scene.white_luminance / scale,
+                           p.shoulder == Shoulder::clip ? "" : ", brighter light bends towards it"));
+  out.stamps = {{"scotopic:display", layout.output_space.name},
+                {"scotopic:displayPeak", p.peak},
+                {"scotopic:displayStops", stops},
+                {"scotopic:displayVisibility", std::string(p.rule == VisibilityRule::hdrvdp2 ? "hdrvdp2" : "ward1997")}};
+  out.report = {{"space", layout.output_space.name}, {"peak", p.peak}, {"stops", stops}, {"scale", scale},
+                {"shoulder", p.shoulder == Shoulder::bend}};
+  return out;
+}
+
 void correct_stamps(std::vector<Attribute>& stamps, const DisplayChoice& choice, const ImageLayout& layout) {
-  const bool device = layout.output_space.for_a_device();
+  const bool device = layout.output_space.for_a_device() || layout.night;
   if (!device && !choice.tone) return;
   std::erase_if(stamps, [](const Attribute& a) { return a.name == "whiteLuminance"; });
   if (!device) stamps.push_back({"whiteLuminance", display_unit});

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cli/console.h"
+#include "batch/display_batch.h"
 #include "stages/display/local/display.h"
 #include "pipeline/apply_image.h"
 
@@ -14,8 +15,11 @@ namespace scotopic {
 
 /// As typed.
 struct DisplayOptions {
-  std::string view;
+  std::string display;
   std::string tone;
+  std::string visibility = "hdrvdp2";
+  std::string viewing = "18";
+  std::string strength = "1";
   std::string contrast = "5";
   std::string peak = "100";
   std::string night_range = "0.35";
@@ -25,16 +29,21 @@ struct DisplayOptions {
 
 /// As understood.
 struct DisplayChoice {
-  bool tone = false;                  ///< the tone map runs
+  bool tone = false;                  ///< the local tone map runs
+  NightDisplayParameters night;       ///< of the display stage: what options alone tell
   DisplayParameters parameters;       ///< what options alone tell
   std::optional<DisplayRange> range;  ///< nullopt: measured
+  std::string of_night;               ///< an option given that only the display stage knows; empty: none
 };
 
 void add_display_options(CLI::App& verb, DisplayOptions& options);
 
-/// Error(usage) for a value that is not understood, and for options of a tone map that does not run. Sets the
-/// view of `request`.
+/// Error(usage) for a value that is not understood, and for options of a stage that does not run. Sets the view of
+/// `request`, and whether the display stage runs.
 DisplayChoice understand(const DisplayOptions& options, ImageRequest& request);
+
+/// Error(usage) for options of the display stage where the layout has none.
+void refuse_idle_options(const DisplayChoice& choice, const ImageLayout& layout);
 
 /// Error(config) for a view that the config does not have; a note where the view applies looks of its own.
 void check_view(const ImageRequest& request, const ColourConfig& config, const Console& console);
@@ -51,6 +60,15 @@ struct DisplayStage {
 DisplayStage display_stage(const DisplayChoice& choice, const AppearanceParameters& scene,
                            PixelSource& source, ImageLayout& layout, const ColourConfig& config,
                            const RowOperator& apply, const SpatialFilters& before, const Console& console);
+
+/// The display stage of an image whose layout asks for it; takes the exposure over from the layout.
+struct ShownNight {
+  std::shared_ptr<const DisplayBatch> batch;  ///< null: the stage does not run
+  std::vector<Attribute> stamps;
+  nlohmann::ordered_json report;
+};
+ShownNight night_stage(const DisplayChoice& choice, const AppearanceParameters& scene, Precision precision,
+                       const std::string& file, ImageLayout& layout, const Console& console);
 
 /// Of stamps that tell how light was seen, those that still hold for what a display or another device is
 /// sent.

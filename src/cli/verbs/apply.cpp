@@ -168,6 +168,7 @@ ApplyJob::Seen ApplyJob::look(const FramePaths& paths, const Console& console) c
   Scene& scene = frame.scene;
   scene = open_scene(settings_, paths.input, paths.output, console);
   PixelSource& source = *scene.source;
+  refuse_idle_options(display_, scene.layout);
   describe_layout(source, settings_.config, scene.layout, console);
   if (non_finite_ == NonFinite::error) refuse_non_finite(source, scene.layout, settings_.config);
   const MeteredScene metered = meter(scene, settings_, false);
@@ -211,9 +212,14 @@ nlohmann::ordered_json ApplyJob::run(const FrameTask& task, const Console& conso
   const DisplayStage display =
       display_stage(display_, parameters, source, layout, settings_.config, apply, filters, console);
   if (display.filter) filters.push_back(display.filter.get());
-  stamps.insert(stamps.end(), display.stamps.begin(), display.stamps.end());
+  const Precision precision = way.name == "double" ? Precision::dual : Precision::single;
+  const ShownNight night = night_stage(display_, parameters, precision, source.file(), layout, console);
+  const RowOperator show = night.batch ? RowOperator([&](const PixelRows& rows, std::uint8_t* touched) {
+    night.batch->apply(rows, touched);
+  }) : RowOperator();
+  for (const auto* more : {&display.stamps, &night.stamps}) stamps.insert(stamps.end(), more->begin(), more->end());
   set_stamps(layout, stamps);
-  const std::uint64_t unseen = apply_image(source, layout, settings_.config, apply, file, task.progress, filters);
+  const std::uint64_t unseen = apply_image(source, layout, settings_.config, apply, file, task.progress, filters, show);
   nlohmann::ordered_json result = result_of(task.paths, frame.numbers, layout, stamps, source);
   result["effects"] = plan_json(frame.plan);
   result["nonFinite"] = report_non_finite(
@@ -221,6 +227,7 @@ nlohmann::ordered_json ApplyJob::run(const FrameTask& task, const Console& conso
       layout, settings_.config, console);
   if (!way.report.is_null()) result["ways"] = way.report;
   if (!display.report.is_null()) result["display"] = display.report;
+  if (!night.report.is_null()) result["display"] = night.report;
   return result;
 }
 
