@@ -1,10 +1,13 @@
 // What a display is sent, by the program: through files, filters and options.
+#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <vector>
 
 #include "cli/run_program.h"
 
@@ -15,6 +18,14 @@ std::string bytes_of(const std::string& file) {
   std::ostringstream out;
   out << std::ifstream(file, std::ios::binary).rdbuf();
   return out.str();
+}
+
+std::vector<std::uint8_t> pixels_of(const std::string& file) {
+  const auto in = OIIO::ImageInput::open(file);
+  if (!in) return {};
+  std::vector<std::uint8_t> out(static_cast<std::size_t>(in->spec().width) * static_cast<std::size_t>(in->spec().height) * 3);
+  if (!in->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, out.data())) out.clear();
+  return out;
 }
 
 class DisplayOutput : public ::testing::Test {
@@ -58,6 +69,42 @@ TEST_F(DisplayOutput, a_range_that_is_told_does_what_the_measured_one_did) {
 TEST_F(DisplayOutput, its_unit_is_stated_where_it_is_light_and_not_where_it_is_a_code) {
   EXPECT_EQ(applied("light.exr", {"--tone", "local"}).at("applied").at("whiteLuminance"), 100.0);
   EXPECT_FALSE(applied("code.exr", {"--display", "Un-tone-mapped"}).at("applied").contains("whiteLuminance"));
+}
+
+TEST_F(DisplayOutput, a_picture_that_is_looked_at_is_a_night_and_light_stays_light) {
+  const nlohmann::json png = applied("a.png", {});
+  EXPECT_NEAR(png.at("display").at("stops").get<double>(), -2.374, 1e-3);
+  EXPECT_EQ(png.at("display").at("space"), "sRGB - Texture");
+  EXPECT_FALSE(applied("a.exr", {}).contains("display"));
+  EXPECT_FALSE(applied("none.png", {"--display", "none"}).contains("display"));
+  EXPECT_FALSE(applied("b.png", {"--output-colorspace", "sRGB - Display"}).contains("display"));
+  EXPECT_NE(bytes_of(path("a.png")), bytes_of(path("none.png")));
+  EXPECT_EQ(applied("p3.png", {"--display", "night:Display P3 - Display"}).at("display").at("space"),
+            "Display P3 - Display");
+}
+
+TEST_F(DisplayOutput, a_picture_seen_by_day_comes_back_with_its_bits) {
+  applied("a.png", {"-d", "uint8"});
+  const test::Outcome again = test::run_program(
+      {"apply", path("a.png"), "-o", path("again.png"), "--adaptation", "100", "-q"});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  ASSERT_FALSE(pixels_of(path("a.png")).empty());
+  EXPECT_EQ(pixels_of(path("a.png")), pixels_of(path("again.png")));
+}
+
+TEST_F(DisplayOutput, detail_needs_pixels_per_degree_assumes_them_on_a_display_and_says_so) {
+  const auto run = [&](const char* out, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"apply", path("in.exr"), "-o", path(out), "--adaptation", "starlight"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return test::run_program(arguments);
+  };
+  EXPECT_EQ(run("a.exr", {"--acuity"}).exit_code, 2);
+  EXPECT_EQ(run("a.exr", {"--effects", "acuity"}).exit_code, 2);
+  EXPECT_NE(run("a.png", {"--acuity"}).err.find("assumed: the picture is 40 degrees wide"), std::string::npos);
+  // Nyquist of 300 pixels over 360 degrees.
+  EXPECT_NEAR(applied("b.png", {"--projection", "latlong"}).at("effects").at("acuity").at("number").get<double>(),
+              150.0 / 360, 1e-9);
+  EXPECT_EQ(run("c.exr", {}).exit_code, 0);
 }
 
 TEST_F(DisplayOutput, safko_s_scale_is_used_and_stated) {

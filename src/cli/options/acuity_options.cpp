@@ -37,6 +37,20 @@ std::optional<double> camera_field_of_view(const PixelSource& source, const Imag
   return std::nullopt;
 }
 
+/// What a picture on a desk or a wall fills of its viewer's field (our choice: a lens of 50 mm).
+constexpr double assumed_degrees = 40;
+
+bool is_lat_long(const PixelSource& source, const ImageLayout& layout) {
+  for (const Attribute& a : source.attributes(layout.light.front().index))
+    if (a.name == "envmap") {
+      const auto* text = std::get_if<std::string>(&a.value);
+      return text && *text == "latlong";
+    }
+  return false;
+}
+
+double pixels_per_degree_of_panorama(double width) { return width / 360; }
+
 }  // namespace
 
 void add_acuity_options(CLI::App& verb, AcuityOptions& o) {
@@ -50,6 +64,8 @@ void add_acuity_options(CLI::App& verb, AcuityOptions& o) {
       ->group(group);
   add("--ppd", o.pixels_per_degree, "Pixels per degree of the viewer's field", "X");
   add("--fov", o.field_of_view, "Degrees that the picture's width fills of it, instead of --ppd", "DEG");
+  add("--projection", o.projection, "flat or latlong (360 degrees wide); default: what an EXR's envmap says, else flat",
+      "NAME");
   add("--strength-acuity", o.strength, "0 to 1", "X");
   add("--acuity-space", o.space, "What is averaged: light (default) or lab", "NAME");
   add("--acuity-range", o.range, "Differences that count as edges, CIELAB (default 15)", "X");
@@ -68,6 +84,8 @@ AcuityChoice understand(const AcuityOptions& o) {
   }
   if (!o.field_of_view.empty())
     out.field_of_view = number_in("--fov", o.field_of_view, 0.01, 179, "degrees, 0.01 to 179");
+  if (!o.projection.empty())
+    out.panorama = choice<bool>("--projection", o.projection, {{"flat", false}, {"latlong", true}});
   out.parameters.strength = number_in("--strength-acuity", o.strength, 0, 1, "a strength from 0 (off) to 1");
   out.parameters.range_sigma = number_in("--acuity-range", o.range, 0.1, 1000, "CIELAB units, 0.1 to 1000");
   out.parameters.space = choice("--acuity-space", o.space, spaces);
@@ -83,7 +101,11 @@ AngularResolution angular_resolution(const AcuityChoice& choice, const PixelSour
   if (const std::optional<double> camera = camera_field_of_view(source, layout))
     return {pixels_per_degree(width, *camera), true,
             fmt::format("the camera's focal length, {:.3g} degrees wide", *camera)};
-  return {60.0, false, "assumed: a pixel is one arc minute; --ppd or --fov tells"};
+  if (choice.panorama.value_or(is_lat_long(source, layout))) return {pixels_per_degree_of_panorama(width), true, "a panorama: 360 degrees wide"};
+  if (layout.night || layout.output_space.for_a_device())
+    return {pixels_per_degree(width, assumed_degrees), true,
+            fmt::format("assumed: the picture is {:g} degrees wide; --fov or --ppd tells", assumed_degrees)};
+  return {60.0, false, "not known: --fov or --ppd tells"};
 }
 
 std::unique_ptr<SpatialFilter> acuity_filter(const AcuityChoice& choice, const AppearanceParameters& scene,

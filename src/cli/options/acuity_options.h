@@ -22,10 +22,12 @@ struct AcuityOptions {
   std::string range = "15";
   std::string pixels_per_degree;
   std::string field_of_view;
+  std::string projection;
 };
 
 /// As understood.
 struct AcuityChoice {
+  std::optional<bool> panorama;  ///< nullopt: as the file says
   bool asked = false;
   bool local = false;           ///< sigma follows each pixel's own surroundings
   AcuityParameters parameters;  ///< sigma, white and primaries are not set yet

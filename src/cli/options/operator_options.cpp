@@ -48,7 +48,7 @@ double strength(const char* option, const std::string& text) {
 void choose_effects(const std::string& list, OperatorChoice& choice) {
   choice.plan_effects = list == "auto";
   if (list == "all" || choice.plan_effects) {
-    choice.acuity = AcuityWish::if_told;
+    choice.acuity = AcuityWish::if_known;
     return;
   }
   Strengths& s = choice.parameters.strength;
@@ -85,8 +85,9 @@ void add_operator_options(CLI::App& verb, OperatorOptions& o) {
   const auto add = [&](const char* name, std::string& value, const std::string& text, const char* kind) {
     verb.add_option(name, value, text)->type_name(kind)->group(group);
   };
-  add("--adaptation", o.adaptation, "Luminance the eye is adapted to, or metered: auto (log-average), auto:median, auto:p90, auto:X,Y,W,H",
-      "CDM2|auto");
+  add("--adaptation", o.adaptation, "Luminance the eye is adapted to, or its name (moon, street, ...: explain --adaptations), or metered: auto "
+      "(log-average), auto:median, auto:p90, auto:X,Y,W,H",
+      "CDM2|NAME|auto");
   add("--white-luminance", o.white_luminance,
       "What image value 1 stands for; overrides the file's whiteLuminance", "CDM2");
   add("--model", o.model, "filament2021 (default), kirk2011, safko2019", "NAME");
@@ -108,7 +109,7 @@ void add_operator_options(CLI::App& verb, OperatorOptions& o) {
 OperatorChoice understand(const OperatorOptions& o) {
   OperatorChoice out;
   if (const std::optional<AdaptationMethod> metering = parse_adaptation_method(o.adaptation)) out.metering = *metering;
-  else out.adaptation = luminance_value("--adaptation", o.adaptation);
+  else out.adaptation = adaptation_value(o.adaptation);
   if (!o.white_luminance.empty())
     out.white_luminance = luminance_value("--white-luminance", o.white_luminance);
   AppearanceParameters& p = out.parameters;

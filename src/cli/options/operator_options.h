@@ -30,8 +30,8 @@ struct OperatorOptions {
   std::string rods = "linear";
 };
 
-/// Whether --effects asks for acuity: in a list by name; all and auto only where pixels per degree are told.
-enum class AcuityWish { no, if_told, yes };
+/// Whether --effects asks for acuity: in a list by name; all and auto only where pixels per degree are known.
+enum class AcuityWish { no, if_known, yes };
 
 /// As understood. Adaptation, white luminance and primaries in `parameters` are not set yet.
 struct OperatorChoice {

@@ -1,5 +1,10 @@
 #include "cli/options/values.h"
 
+#include <cctype>
+#include <optional>
+
+#include "adaptation/ladder.h"
+
 #include <charconv>
 #include <cmath>
 
@@ -26,6 +31,15 @@ double number_in(const char* option, const std::string& text, double least, doub
 
 double luminance_value(const char* option, const std::string& text) {
   return number_in(option, text, 1e-9, 1e9, "a luminance in cd/m2 (a number above 0, from 1e-9 to 1e9)");
+}
+
+double adaptation_value(const std::string& text) {
+  if (const std::optional<double> named = named_adaptation(text)) return *named;
+  const bool word = !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) && text != "nan" && text != "inf";
+  if (!word) return luminance_value("--adaptation", text);
+  std::vector<std::string> names = {"auto"};
+  for (const LadderStep& step : ladder) names.emplace_back(step.name);
+  fail_value("--adaptation", text, "a luminance in cd/m2, or a name (explain --adaptations)" + did_you_mean(text, names));
 }
 
 }  // namespace scotopic

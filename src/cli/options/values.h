@@ -21,6 +21,8 @@ double number_in(const char* option, const std::string& text, double least, doub
 
 /// A luminance, cd/m2: 1e-9 to 1e9.
 double luminance_value(const char* option, const std::string& text);
+/// The value of --adaptation where it is not metered: cd/m2, or a name of the ladder.
+double adaptation_value(const std::string& text);
 
 [[noreturn]] void fail_value(const char* option, const std::string& text, const std::string& takes);
 

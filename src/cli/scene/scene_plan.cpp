@@ -5,8 +5,8 @@ namespace scotopic {
 PlanRequest plan_request(const OperatorChoice& choice, const AcuityChoice& acuity, const AngularResolution& resolution) {
   PlanRequest request;
   request.parameters = choice.parameters;
-  const bool told = acuity.pixels_per_degree || acuity.field_of_view;
-  request.acuity = acuity.asked || choice.acuity == AcuityWish::yes || (choice.acuity == AcuityWish::if_told && told);
+  request.acuity = acuity.asked || choice.acuity == AcuityWish::yes ||
+                   (choice.acuity == AcuityWish::if_known && resolution.known);
   if (acuity.parameters.strength * choice.parameters.strength.all == 0) request.acuity = false;
   if (resolution.known || request.acuity) request.pixels_per_degree = resolution.pixels_per_degree;
   return request;

@@ -178,8 +178,10 @@ ApplyJob::Seen ApplyJob::look(const FramePaths& paths, const Console& console) c
   choice.parameters.adaptation = frame.numbers.adaptation;
   choice.parameters.white_luminance = frame.numbers.white_luminance;
   frame.resolution = angular_resolution(settings_.acuity, source, scene.layout);
-  frame.plan = plan_of(choice, plan_request(choice, settings_.acuity, frame.resolution),
-                       metered.statistics ? &*metered.statistics : nullptr);
+  const PlanRequest request = plan_request(choice, settings_.acuity, frame.resolution);
+  if (request.acuity && !frame.resolution.known)
+    throw Error(ExitCode::usage, source.file(), "detail needs pixels per degree, which are not known: --fov or --ppd");
+  frame.plan = plan_of(choice, request, metered.statistics ? &*metered.statistics : nullptr);
   console.note(source.file() + ": " + plan_line(frame.plan));
   return frame;
 }

@@ -69,7 +69,7 @@ std::vector<double> adaptations_of(const BakeOptions& o) {
     else if (text == "auto")
       fail_value("--adaptation", text, "luminances in cd/m2, or ladder: a LUT does not see the image");
     else
-      out.push_back(luminance_value("--adaptation", text));
+      out.push_back(adaptation_value(text));
   }
   if (out.empty()) throw Error(ExitCode::usage, "", "--adaptation is needed: luminances in cd/m2, or ladder");
   return out;

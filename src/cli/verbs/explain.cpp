@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "adaptation/ladder.h"
 #include "adaptation/mesopic.h"
 #include "cli/verbs/explain_config.h"
 #include "cli/verbs/explain_frames.h"
@@ -21,6 +22,7 @@ struct ExplainOptions {
   SceneOptions scene;
   FrameOptions frames;
   std::string plot;
+  bool adaptations = false;
   CommonOptions common;
 };
 
@@ -123,8 +125,20 @@ int run_explain_image(const ExplainOptions& options, const SceneSettings& settin
   return static_cast<int>(ExitCode::done);
 }
 
+int list_adaptations(const Console& console) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const LadderStep& step : ladder) {
+    if (!console.json()) fmt::print("{:<10} {:>6g} cd/m2  {}\n", step.name, step.adaptation, step.scene);
+    all.push_back({{"name", step.name}, {"adaptation", step.adaptation}, {"scene", step.scene}});
+  }
+  console.result({{"adaptations", all}});
+  return static_cast<int>(ExitCode::done);
+}
+
 int run_explain(const ExplainOptions& options) {
   const Console console(options.common);
+  if (options.adaptations) return list_adaptations(console);
+  if (options.input.empty()) throw Error(ExitCode::usage, "", "IN is required: an image, or an OCIO config");
   if (is_config(options.input)) return run_explain_config(options, console);
   const std::vector<Frame> frames = frames_of(options.frames, options.input, "");
   const SceneSettings settings(options.scene, options.common.threads);
@@ -145,8 +159,8 @@ void add_explain(CLI::App& program, Invocation& invocation) {
       "  scotopic explain in.####.exr --frames 1-240 --white-luminance 10 --plot shot.svg\n"
       "  scotopic explain ocio_config/config.ocio");
   verb.add_option("input", options->input, "As for apply; or an OCIO config (.ocio): what its looks do")
-      ->required()
       ->type_name("IN|CONFIG");
+  verb.add_flag("--adaptations", options->adaptations, "List the names that --adaptation takes");
   add_operator_options(verb, options->scene.appearance);
   add_reading_frame_options(verb, options->frames);
   add_band_options(verb, options->scene.bands);

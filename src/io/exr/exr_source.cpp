@@ -1,5 +1,6 @@
 #include "io/exr/exr_source.h"
 
+#include <OpenEXR/ImfEnvmapAttribute.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticitiesAttribute.h>
 #include <OpenEXR/ImfVecAttribute.h>
@@ -210,6 +211,8 @@ std::vector<Attribute> ExrSource::attributes(std::size_t index) const {
       out.push_back({it.name(), static_cast<double>(number->value())});
     } else if (const auto* integer = dynamic_cast<const Imf::IntAttribute*>(&attribute)) {
       out.push_back({it.name(), integer->value()});
+    } else if (const auto* envmap = dynamic_cast<const Imf::EnvmapAttribute*>(&attribute)) {
+      out.push_back({it.name(), std::string(envmap->value() == Imf::ENVMAP_LATLONG ? "latlong" : "cube")});
     }
   }
   return out;
