@@ -6,7 +6,7 @@ set -eu
 cd "$(dirname "$0")/.."
 la=${1:-0.01}
 scripts/install_packages.sh
-scripts/build.sh release
+scripts/build.sh release scotopic
 scotopic=build/release/src/cli/scotopic
 night=/usr/share/blender/datafiles/studiolights/world/night.exr
 config=ocio_config/config.ocio

@@ -1,5 +1,6 @@
 #include "batch/batch.h"
 
+#include <algorithm>
 #include <cstring>
 #include <optional>
 #include <type_traits>

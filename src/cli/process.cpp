@@ -9,6 +9,9 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "base/error.h"
 #include "io/atomic/output_file.h"
@@ -59,13 +62,21 @@ void open_standard_streams() {
       (void)!open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-/// What the libraries would read besides: it loads code, changes results, or prints between our lines.
+/// Whether a library would load code, change results or print between our lines for this variable. Whole families:
+/// what is in them changes from one release of a library to the next.
+bool steers_a_library(std::string_view name) {
+  for (const std::string_view family : {"CUE_", "EXPAT_", "GOMP_", "OIIO_", "OMP_", "OPENCV_", "OPENIMAGEIO_"})
+    if (name.starts_with(family)) return true;
+  return name == "OCIO_LOGGING_LEVEL" || name == "OCIO_OPTIMIZATION_FLAGS";
+}
+
 void ignore_environment() {
-  for (const char* name :
-       {"OCIO_LOGGING_LEVEL", "OCIO_OPTIMIZATION_FLAGS", "OPENIMAGEIO_OPTIONS", "OPENIMAGEIO_THREADS",
-        "OPENIMAGEIO_DEBUG", "OPENIMAGEIO_DEBUG_FILE", "OPENIMAGEIO_LOG_TIMES", "OIIO_LIBRARY_PATH", "CUE_THREADS",
-        "EXPAT_ACCOUNTING_DEBUG", "EXPAT_ENTITY_DEBUG", "EXPAT_ENTROPY_DEBUG"})
-    unsetenv(name);
+  std::vector<std::string> names;
+  for (char** entry = environ; entry && *entry; ++entry) {
+    const std::string_view name = std::string_view(*entry).substr(0, std::string_view(*entry).find('='));
+    if (steers_a_library(name)) names.emplace_back(name);
+  }
+  for (const std::string& name : names) unsetenv(name.c_str());
 }
 
 }  // namespace

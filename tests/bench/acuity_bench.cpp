@@ -5,6 +5,7 @@
 #include <benchmark/benchmark.h>
 #include <hwy/targets.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <cstring>

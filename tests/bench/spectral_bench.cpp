@@ -9,6 +9,7 @@
 #include <OpenEXR/ImfInputFile.h>
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <iterator>
 #include <numeric>

@@ -3,6 +3,7 @@
 #include <Imath/half.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>

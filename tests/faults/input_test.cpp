@@ -1,6 +1,7 @@
 // What goes wrong with what is read: broken disks, files cut short or changed meanwhile.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>

@@ -1,6 +1,7 @@
 // What goes wrong with the process: memory, descriptors, limits, signals, a second program.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <csignal>

@@ -32,6 +32,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <initializer_list>
 
 extern "C" {
 extern char** environ;

@@ -10,6 +10,8 @@
 #include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/ImfTiledOutputFile.h>
 
+#include <algorithm>
+
 #include "fuzz/target.h"
 #include "base/error.h"
 #include "io/pixel_source.h"

@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -77,6 +79,43 @@ TEST(House, the_core_knows_neither_files_nor_ocio) {
       for (const char* library : {"<OpenColorIO", "<OpenImageIO", "<OpenEXR", "<Imath", "<fstream>", "<filesystem>"})
         EXPECT_TRUE(line.rfind("#include", 0) != 0 || line.find(library) == std::string::npos) << file << ": " << line;
   });
+}
+
+std::string text_of(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+TEST(House, a_file_that_calls_an_algorithm_includes_it) {
+  // Other headers bring <algorithm> in some standard libraries, not in the next: GCC 14's leave it out.
+  const std::regex call(R"(\bstd::(all_of|any_of|clamp|copy|count|count_if|equal|fill|find|find_if|lower_bound|max|)"
+                        R"(max_element|min|min_element|minmax|none_of|nth_element|replace|reverse|sort|stable_sort|)"
+                        R"(transform|unique|upper_bound)\()");
+  int callers = 0;
+  for (const fs::path& root : {source, fs::path(SCOTOPIC_SOURCE_DIR) / "tests"})
+    for_each_source(root, [&](const fs::path& file) {
+      const std::string text = text_of(file);
+      if (!std::regex_search(text, call)) return;
+      ++callers;
+      EXPECT_NE(text.find("#include <algorithm>"), std::string::npos) << file;
+    });
+  EXPECT_GT(callers, 50);
+}
+
+TEST(House, the_program_asks_for_the_variables_that_are_listed) {
+  const std::string promises = text_of(fs::path(SCOTOPIC_SOURCE_DIR) / "SECURITY.md");
+  const std::regex call(R"(\bgetenv\(([^)]*)\))");
+  int asked = 0;
+  for_each_source(source, [&](const fs::path& file) {
+    const std::string text = text_of(file);
+    for (std::sregex_iterator found(text.begin(), text.end(), call), end; found != end; ++found, ++asked) {
+      const std::string name = (*found)[1];
+      ASSERT_EQ(name.front(), '"') << file << " asks for a variable whose name is not written there";
+      EXPECT_NE(promises.find("`" + name.substr(1, name.size() - 2) + "`"), std::string::npos) << file << ": " << name;
+    }
+  });
+  EXPECT_GT(asked, 0);
 }
 
 TEST(House, tests_include_no_cpp_file) {

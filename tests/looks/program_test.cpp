@@ -2,6 +2,7 @@
 #include <OpenColorIO/OpenColorIO.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "looks/support.h"

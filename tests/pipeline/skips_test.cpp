@@ -7,6 +7,7 @@
 #include <OpenEXR/ImfTiledOutputFile.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 

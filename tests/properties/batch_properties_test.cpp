@@ -1,6 +1,7 @@
 // What must not matter to the batch: order, grouping, threads, layout and the machine's vector instructions.
 #include <hwy/targets.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstdio>
 #include <cstring>

@@ -1,4 +1,5 @@
 // How far a result moves when something moves a little: a stated slope, whatever threshold lies between.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 

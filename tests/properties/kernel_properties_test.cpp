@@ -1,4 +1,5 @@
 // What holds for the kernel, the adaptation formulas and the projection, whatever they are given.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -2,6 +2,7 @@
 // worked out beforehand, no kernel of the product's. What the program computes must be that.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 

@@ -1,5 +1,6 @@
 #include "properties/mpfr_reference.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
+
 #include "stages/acuity/cutoff.h"
 #include "stages/acuity/simd-inl.h"
 #include "adaptation/mesopic.h"

@@ -1,4 +1,5 @@
 // What holds for every pixel through the whole operator, by the reference and by the batch.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

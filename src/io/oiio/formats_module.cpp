@@ -33,12 +33,27 @@ bool has_address_space() {
   return true;
 }
 
+/// The libraries that OpenImageIO brings heed variables of their own while they are loaded; for some they print, or
+/// end the program. In here there are none.
+class EmptyEnvironment {
+ public:
+  EmptyEnvironment() { environ = none_; }
+  ~EmptyEnvironment() { environ = kept_; }
+  EmptyEnvironment(const EmptyEnvironment&) = delete;
+  EmptyEnvironment& operator=(const EmptyEnvironment&) = delete;
+
+ private:
+  char* none_[1] = {nullptr};
+  char** const kept_ = environ;
+};
+
 const FormatsModule* load(const std::string& file) {
   const auto refuse = [&](ExitCode code, const std::string& reason) {
     throw Error(code, file, "cannot load scotopic_formats.so, which knows TIFF, PNG, JPEG and HDR: " + reason);
   };
   if (!has_descriptors()) refuse(ExitCode::limit, "too few files can be opened");
   if (!has_address_space()) refuse(ExitCode::limit, "512 MiB of address space are not to be had (ulimit -v)");
+  const EmptyEnvironment loading;
   std::string reason;
   for (const char* name : {"scotopic_formats.so", SCOTOPIC_MODULE_FOLDER "/scotopic_formats.so"}) {
     if (void* const module = dlopen(name, RTLD_NOW | RTLD_LOCAL))

@@ -19,20 +19,22 @@
 namespace scotopic {
 namespace {
 
-/// OpenImageIO's stream over an OutputFile. C libraries call it: nothing may be thrown here.
+/// OpenImageIO's stream over an OutputFile. C libraries call it: nothing may be thrown here. Nothing says `override`:
+/// tell() is const from OpenImageIO 3.0 on, so that one of its two forms overrides nothing.
 class Proxy : public OIIO::Filesystem::IOProxy {
  public:
   explicit Proxy(OutputFile& file) : IOProxy("", Write), file_(file) {}
 
-  const char* proxytype() const override { return "scotopic"; }
-  std::int64_t tell() override { return file_.tell(); }
-  bool seek(std::int64_t offset) override {
+  const char* proxytype() const { return "scotopic"; }
+  std::int64_t tell() { return file_.tell(); }
+  std::int64_t tell() const { return file_.tell(); }
+  bool seek(std::int64_t offset) {
     file_.seek(offset);
     return true;
   }
-  std::size_t read(void* data, std::size_t n) override { return file_.read(data, n); }
-  std::size_t write(const void* data, std::size_t n) override { return file_.write(data, n) ? n : 0; }
-  std::size_t size() const override { return static_cast<std::size_t>(file_.size()); }
+  std::size_t read(void* data, std::size_t n) { return file_.read(data, n); }
+  std::size_t write(const void* data, std::size_t n) { return file_.write(data, n) ? n : 0; }
+  std::size_t size() const { return static_cast<std::size_t>(file_.size()); }
 
  private:
   OutputFile& file_;

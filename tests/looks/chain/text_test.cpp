@@ -1,6 +1,7 @@
 // LUT files: what is written is what was measured, the same bytes each time.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <clocale>
 #include <cmath>
 #include <cstdlib>

@@ -1,5 +1,6 @@
 #include "stages/display/local/base_layer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>

@@ -1,6 +1,7 @@
 // Durand & Dorsey's base layer: the bilateral mean of log luminance.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
