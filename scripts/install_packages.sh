@@ -1,5 +1,5 @@
 #!/bin/sh
-# Installs the Debian 12 packages that building, testing and the demonstration need. Quiet; does nothing
+# Installs the packages of Debian 12 or 13 that building, testing and the demonstration need. Quiet; does nothing
 # (and needs no network) where all are there already. Needs root, or sudo.
 #   scripts/install_packages.sh farm   Slurm as well (3 MB), for the test of scripts/farm
 set -eu

@@ -2,6 +2,7 @@
 #include "io/exr/exr_headers.h"
 
 #include <OpenEXR/ImfCompression.h>
+#include <OpenEXR/OpenEXRConfig.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -117,7 +118,7 @@ bool read_attribute(HeaderReader& in, PartSizes& part) {
   const std::int64_t end = in.left() - size;
   if (name == "dataWindow" && type == "box2i" && size == 16) read_window(in, part);
   if (name == "channels" && type == "chlist") count_channels(in, end, part);
-  if (name == "compression" && size == 1) part.compression = in.next();
+  if (name == "compression" && size == 1) part.compression = static_cast<unsigned char>(in.next());
   if (type == "preview" && size >= 8) {
     const std::int64_t width = in.number<std::uint32_t>(), height = in.number<std::uint32_t>();
     if (height > 0 && width > (size - 8) / 4 / height) in.fail("is damaged: its preview is larger than its header");
@@ -137,11 +138,17 @@ std::int64_t parts_of(std::int64_t whole, std::int64_t piece) { return (whole + 
 std::int64_t chunks_of(const PartSizes& part) {
   if (part.tile_width > 0 && part.tile_height > 0)
     return parts_of(part.width, part.tile_width) * parts_of(part.height, part.tile_height);
-  // Younger compressions, which OpenEXR will name, take up to 256 rows at once.
-  const int rows = part.compression < Imf::NUM_COMPRESSION_METHODS
-                       ? rows_compressed_together(static_cast<Imf::Compression>(part.compression))
-                       : 256;
-  return parts_of(part.height, rows);
+  return parts_of(part.height, rows_compressed_together(part.compression));
+}
+
+/// OpenEXR's own words for that are "invalid" and the like.
+void check_compression(const PartSizes& part, HeaderReader& in) {
+  if (part.compression < Imf::NUM_COMPRESSION_METHODS) return;
+  const bool htj2k = part.compression == htj2k256 || part.compression == htj2k32;
+  in.fail(fmt::format("{}: OpenEXR {} here does not know {}",
+                      htj2k ? "was written by a newer OpenEXR" : "was written by a newer OpenEXR, or is damaged",
+                      OPENEXR_VERSION_STRING,
+                      htj2k ? "compression HTJ2K" : fmt::format("compression {}", part.compression)));
 }
 
 void check_part(const std::string& file, const PartSizes& part, const Limits& limits, HeaderReader& in,
@@ -151,6 +158,7 @@ void check_part(const std::string& file, const PartSizes& part, const Limits& li
   check_limit_product(file, "pixels", part.width, part.height, limits.pixels, "--max-pixels");
   check_limit(file, "channels", part.channels, limits.channels, "--max-channels");
   check_limit(file, "side of a tile", std::max(part.tile_width, part.tile_height), limits.side, "--max-side");
+  check_compression(part, in);
   chunks += chunks_of(part);
   if (chunks > in.size() / 8)
     in.fail(fmt::format("is truncated: {} bytes do not hold the table of its {} chunks", in.size(), chunks));

@@ -24,6 +24,7 @@
 
 #include "base/error.h"
 #include "io/exr/exr_source.h"
+#include "io/exr/open_exr.h"
 #include "io/pixel_sink.h"
 
 namespace scotopic {
@@ -178,9 +179,9 @@ class ExrSink : public PixelSink {
     // Where memory ends within a thread of its own OpenEXR leaves a chunk out and says nothing.
     guarded([&] {
       ExrReadBack stream(file_);
-      const Imf::MultiPartInputFile written(stream);
-      for (int part = 0; part < written.parts(); ++part)
-        if (!written.partComplete(part)) throw std::runtime_error("a chunk of it is missing");
+      const auto written = open_exr(stream);
+      for (int part = 0; part < written->parts(); ++part)
+        if (!written->partComplete(part)) throw std::runtime_error("a chunk of it is missing");
     });
   }
 

@@ -22,6 +22,7 @@
 
 #include "base/error.h"
 #include "io/exr/exr_headers.h"
+#include "io/exr/open_exr.h"
 
 namespace scotopic {
 namespace {
@@ -68,7 +69,7 @@ int rows_compressed_together(const Imf::Header& header) {
                                      : rows_compressed_together(header.compression());
 }
 
-int rows_compressed_together(Imf::Compression compression) {
+int rows_compressed_together(int compression) {
   switch (compression) {
     case Imf::ZIP_COMPRESSION:
     case Imf::PXR24_COMPRESSION:
@@ -80,8 +81,14 @@ int rows_compressed_together(Imf::Compression compression) {
       return 32;
     case Imf::DWAB_COMPRESSION:
       return 256;
-    default:
+    case htj2k32:
+      return 32;
+    case Imf::NO_COMPRESSION:
+    case Imf::RLE_COMPRESSION:
+    case Imf::ZIPS_COMPRESSION:
       return 1;
+    default:  // HTJ2K in 256s, and whatever comes after it: the most that any takes
+      return 256;
   }
 }
 
@@ -119,7 +126,7 @@ ExrSource::ExrSource(const std::string& file, const Limits& limits) : PixelSourc
     const auto side = static_cast<int>(std::min<std::int64_t>(limits.side, INT32_MAX));
     Imf::Header::setMaxImageSize(side, side);
     Imf::Header::setMaxTileSize(side, side);
-    exr_ = std::make_unique<Imf::MultiPartInputFile>(file.c_str());
+    exr_ = open_exr(file);
     for (int part = 0; part < exr_->parts(); ++part) {
       add_pictures(part);
       check_limits(limits);

@@ -41,8 +41,10 @@ class ExrSource : public PixelSource {
 
 /// Rows that are decompressed at once: of a chunk of scanlines, or of a tile.
 int rows_compressed_together(const Imf::Header& header);
-/// Of scanlines. 1 for a compression that OpenEXR 3.1 does not know.
-int rows_compressed_together(Imf::Compression compression);
+/// HTJ2K, of OpenEXR 3.4, by number: the headers of those before have no name for it.
+inline constexpr int htj2k256 = 10, htj2k32 = 11;
+/// Of scanlines; 256, the most, for a compression that nobody here knows.
+int rows_compressed_together(int compression);
 
 /// The file's channel type; uint is uint32.
 PixelType pixel_type(Imf::PixelType type);

@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "io/exr/exr_headers.h"
+#include "io/exr/open_exr.h"
 #include "io/exr/exr_source.h"
 #include "io/row_bands.h"
 #include "io/spectral/spectral_header.h"
@@ -105,7 +106,7 @@ void ExrSpectralSource::add_file(const std::string& name, const Limits& limits) 
   watch(name);
   check_exr_headers(name, limits);
   const std::size_t file_index = files_.size();
-  files_.push_back(std::make_unique<Imf::MultiPartInputFile>(name.c_str()));
+  files_.push_back(open_exr(name));
   Imf::MultiPartInputFile& opened = *files_.back();
   for (int part = 0; part < opened.parts(); ++part) {
     if (!opened.partComplete(part))
