@@ -63,8 +63,9 @@ Pixels through(const OCIO::ConstCPUProcessorRcPtr& look, Pixels pixels, int acro
   return pixels;
 }
 
+/// Without OpenColorIO's faster arithmetic, which changes with its releases, and from one pixel of a row to the next.
 OCIO::ConstCPUProcessorRcPtr cpu_look(const std::string& look) {
-  return config()->getProcessor(look_transform(look))->getDefaultCPUProcessor();
+  return config()->getProcessor(look_transform(look))->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS);
 }
 
 TEST(HardLooks, on_the_cpu_every_pixel_comes_out_finite_as_if_alone_and_alpha_keeps_its_bits) {
@@ -132,7 +133,7 @@ void expect_the_gpu_to_follow(const std::string& look, const Pixels& in) {
     worst = std::max(worst, difference / size);
   }
   std::printf("%s: GPU against CPU on %zu hard pixels, worst %.3g\n", look.c_str(), compared, worst);
-  EXPECT_LE(worst, 5e-5);
+  EXPECT_LE(worst, 1e-4);
   EXPECT_GT(compared, in.size() / 4 / 2);
 }
 

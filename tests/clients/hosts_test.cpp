@@ -17,7 +17,7 @@ namespace scotopic::test {
 namespace {
 
 constexpr double cpu_tolerance = 2e-6;
-constexpr double gpu_tolerance = 5e-5;
+constexpr double gpu_tolerance = 1e-4;
 
 std::string output(const std::string& name) { return work_folder() + "/" + name; }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <sstream>
 
 #include "looks/verify/inspect.h"
 #include "looks/lut/ladder.h"
@@ -26,7 +27,23 @@ std::vector<LookSpec> shipped_specs(const ColourConfig& own) {
   return specs;
 }
 
-TEST(Shipped, luts_manifest_and_config_are_rebuilt_byte_for_byte) {
+/// How the OpenColorIO here writes a config: spaces, quotes and digits differ from one release to the next.
+std::string written_again(const std::string& text) {
+  std::istringstream in(text);
+  std::ostringstream out;
+  OCIO_NAMESPACE::Config::CreateFromStream(in)->serialize(out);
+  return out.str();
+}
+
+void expect_same_config(const std::string& name, const std::string& baked) {
+  const std::string shipped = test::read_text(root + "/ocio_config/" + name);
+  EXPECT_TRUE(written_again(shipped) == written_again(baked)) << name << " differs from what is baked";
+#if OCIO_VERSION_HEX < 0x02020000  // what is shipped is written by 2.1
+  EXPECT_TRUE(shipped == baked) << name << " differs in a byte from what is baked";
+#endif
+}
+
+TEST(Shipped, luts_manifest_and_configs_are_what_is_baked) {
   const ColourConfig own = ColourConfig::own();
   LookSet set = bake_set(shipped_specs(own), own, SCOTOPIC_VERSION, true);
   add_highlights(set, SCOTOPIC_VERSION);
@@ -35,8 +52,8 @@ TEST(Shipped, luts_manifest_and_config_are_rebuilt_byte_for_byte) {
   for (const TextFile& lut : set.luts)
     EXPECT_TRUE(test::read_text(root + "/luts/" + lut.name) == lut.text)
         << lut.name << " differs from what is baked";
-  EXPECT_TRUE(test::read_text(root + "/ocio_config/config.ocio") == look_config_text(set));
-  EXPECT_TRUE(test::read_text(root + "/ocio_config/config_ocio1.ocio") == twin.config);
+  expect_same_config("config.ocio", look_config_text(set));
+  expect_same_config("config_ocio1.ocio", twin.config);
   const std::string manifest = test::read_text(root + "/luts/MANIFEST");
   const std::string command =
       "scotopic bake --adaptation ladder --beside kirk2011 --model filament2021 --size 33 "
