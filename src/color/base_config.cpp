@@ -173,6 +173,15 @@ void add_displays(OCIO::Config& config) {
                "sdr-video",
                "ITU-R BT.1886, BT.709 primaries"},
               group(matrix_transform(inverse(xyz_of("rec709"))), bt1886_curve()));
+  OCIO::BuiltinTransformRcPtr pq = OCIO::BuiltinTransform::Create();
+  pq->setStyle("DISPLAY - CIE-XYZ-D65_to_REC.2100-PQ");
+  add_display(config,
+              {"Rec.2100-PQ - Display",
+               {"rec2100_pq_display"},
+               "Display",
+               "hdr-video",
+               "ITU-R BT.2100, PQ; 1 of a display's light is 100 cd/m2, views are made for a peak of 1000 cd/m2"},
+              pq);
 }
 
 void add_roles(OCIO::Config& config) {

@@ -51,6 +51,7 @@ double worst_difference(const std::string& what, const Pixels& got, const Pixels
 
 inline const std::string linear = "Linear Rec.709 (sRGB)";
 inline const std::string street = "Mesopic 0.1 nit (street lighting)";
+inline const std::string night = "Night 0.1 nit (street lighting)";
 inline const std::string moon = "Mesopic 0.01 nit (full moon)";
 inline const std::string srgb = "sRGB - Display";
 

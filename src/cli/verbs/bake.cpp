@@ -8,8 +8,8 @@
 #include "looks/config/config_merge.h"
 #include "looks/verify/inspect.h"
 #include "looks/lut/ladder.h"
+#include "looks/lut/look_chain.h"
 #include "looks/config/look_set.h"
-#include "looks/config/ocio1_twin.h"
 #include "looks/chain/read_back.h"
 #include "cli/options/operator_options.h"
 #include "cli/program.h"
@@ -144,7 +144,9 @@ nlohmann::ordered_json json_of(const BakedLook& look) {
 }
 
 std::string said(const BakedLook& look) {
-  return fmt::format("{}: CIEDE2000 to the operator: {}, at ({:.4g}, {:.4g}, {:.4g})", look.chain.name,
+  const bool hdr = look.spec.night && look.spec.night->peak > display_white;
+  return fmt::format("{}{}: {} to the operator: {}, at ({:.4g}, {:.4g}, {:.4g})", look.chain.name,
+                     look.spec.night ? " for a display of " + look.spec.display : "", hdr ? "delta E ITP" : "CIEDE2000",
                      error_text(look.error), look.error.worst[0], look.error.worst[1], look.error.worst[2]);
 }
 
@@ -226,10 +228,8 @@ bool has_whole_ladder(const std::vector<LookSpec>& specs) {
 void add_luts(OutputSet& files, const std::string& folder, const LookSet& set) {
   for (std::size_t i = 0; i < set.luts.size(); ++i) {
     const OutputFile& file = files.add(folder + "/" + set.luts[i].name, set.luts[i].text);
-    if (i < set.looks.size())
-      require_read_back(file.open_name(), file.path(), set.looks[i].chain);
-    else
-      require_lut(file.open_name(), file.path());
+    const BakedLook& look = i < set.looks.size() ? set.looks[i] : set.night_luts[i - set.looks.size()];
+    require_read_back(file.open_name(), file.path(), look.chain);
   }
 }
 
@@ -239,14 +239,13 @@ int bake_config(const BakeOptions& o, const ColourConfig& config, const Console&
   require_writable_folder(o.new_config);
   require_writable_folder(luts);
   LookSet set = bake_set(specs, config, SCOTOPIC_VERSION, has_whole_ladder(specs));
-  add_highlights(set, SCOTOPIC_VERSION);
-  for (const BakedLook& look : set.looks) {
-    check_error(o, look);
-    console.note(said(look));
-  }
+  add_nights(set, specs, config, SCOTOPIC_VERSION);
+  for (const auto* baked : {&set.looks, &set.night_luts})
+    for (const BakedLook& look : *baked) {
+      check_error(o, look);
+      console.note(said(look));
+    }
   const std::string text = look_config_text(set);
-  const Ocio1Twin twin = make_ocio1_twin(specs, lut_search_path);
-  set.luts.insert(set.luts.end(), twin.luts.begin(), twin.luts.end());
   require_config(text, o.new_config + "/config.ocio");
   OutputSet files;
   files.make_folder(o.new_config);
@@ -254,7 +253,6 @@ int bake_config(const BakeOptions& o, const ColourConfig& config, const Console&
   // The config last: it is never there without its files.
   add_luts(files, luts, set);
   files.add(luts + "/MANIFEST", manifest_text(set, SCOTOPIC_VERSION, command_of(o)));
-  files.add(o.new_config + "/config_ocio1.ocio", twin.config);
   files.add(o.new_config + "/config.ocio", text);
   files.commit();
   nlohmann::ordered_json results = nlohmann::ordered_json::array();
@@ -344,7 +342,7 @@ void add_bake(CLI::App& program, Invocation& invocation) {
   add("--colorspace", o.colourspace, "What the LUT takes and gives; else the config's scene_linear", "NAME");
   add("--iconfig", o.colour_config, "The config that --colorspace is of; else $OCIO, else the program's own",
       "FILE");
-  add("--config", o.new_config, "Write a whole config here: config.ocio, luts/, and a twin for OpenColorIO 1",
+  add("--config", o.new_config, "Write a whole config here: config.ocio, luts/",
       "NEW_DIR");
   add("--luts", o.luts, "With --config: the LUTs' folder, where it is not luts/ beside the config", "DIR");
   add("--into", o.into, "Add the looks to this config; its former text is kept beside it", "STUDIO_CONFIG");

@@ -12,8 +12,6 @@ namespace scotopic {
 namespace {
 
 constexpr const char* looks_family = "Looks";
-constexpr const char* soft_view = "Highlight-safe";
-constexpr const char* plain_view = "Un-tone-mapped";
 
 OCIO::MatrixTransformRcPtr matrix_transform(const Matrix3<double>& m) {
   double m44[16] = {};
@@ -35,7 +33,12 @@ OCIO::FileTransformRcPtr file_transform(const std::string& name, OCIO::Interpola
 OCIO::ConstTransformRcPtr transform_of(const LookEntry& look) {
   if (look.transform) return look.transform;
   if (look.matrix) return matrix_transform(*look.matrix);
-  return file_transform(look.file, OCIO::INTERP_TETRAHEDRAL);
+  const OCIO::FileTransformRcPtr file = file_transform(look.file, OCIO::INTERP_TETRAHEDRAL);
+  if (!look.gain) return file;
+  OCIO::GroupTransformRcPtr group = OCIO::GroupTransform::Create();
+  group->appendTransform(file);
+  group->appendTransform(matrix_transform(diagonal<double>({*look.gain, *look.gain, *look.gain})));
+  return group;
 }
 
 void add_space(OCIO::Config& config, const LookEntry& look, const LookPlace& place) {
@@ -61,37 +64,39 @@ void add_space(OCIO::Config& config, const LookEntry& look, const LookPlace& pla
   config.addColorSpace(space);
 }
 
-/// Scene light as it is up to .5, then towards 1 without reaching it: a LUT file, between matrices to and
-/// from Rec.709.
-void add_highlight_view(OCIO::Config& config, const std::string& file) {
+/// Scene light to display light by a LUT between working RGB of both.
+void add_night_transform(OCIO::Config& config, const std::string& name, const NightViewEntry& night) {
   const Matrix3<double> xyz_from_ap0 = gamut_xyz_matrix("ap0").value();
   const Matrix3<double> xyz_from_rec709 = gamut_xyz_matrix("rec709").value();
   OCIO::GroupTransformRcPtr group = OCIO::GroupTransform::Create();
   group->appendTransform(matrix_transform(inverse(xyz_from_rec709) * xyz_from_ap0));
-  group->appendTransform(file_transform(file, OCIO::INTERP_LINEAR));
+  group->appendTransform(file_transform(night.file, OCIO::INTERP_TETRAHEDRAL));
   group->appendTransform(matrix_transform(xyz_from_rec709));
   OCIO::ViewTransformRcPtr view = OCIO::ViewTransform::Create(OCIO::REFERENCE_SPACE_SCENE);
-  view->setName(soft_view);
-  view->setDescription("Scene light as it is up to 0.5, above rolled off towards 1; no other tone mapping");
+  view->setName(name.c_str());
+  view->setDescription(night.description.c_str());
   view->setTransform(group, OCIO::VIEWTRANSFORM_DIR_FROM_REFERENCE);
   config.addViewTransform(view);
 }
 
-/// Views of a display appear in the order they are added: plain ones first.
-void add_views(OCIO::Config& config, const std::vector<LookEntry>& looks) {
-  config.addSharedView(soft_view, soft_view, OCIO::OCIO_VIEW_USE_DISPLAY_NAME, "", "", "");
-  std::vector<std::string> names = {soft_view};
-  const auto share = [&](const LookEntry& look, const std::string& name, const char* transform) {
-    config.addSharedView(name.c_str(), transform, OCIO::OCIO_VIEW_USE_DISPLAY_NAME, look.name.c_str(), "",
-                         look.description.c_str());
-    names.push_back(name);
-  };
-  for (const LookEntry& look : looks)
-    if (look.view) share(look, look.name, plain_view);
-  for (const LookEntry& look : looks)
-    if (look.view) share(look, look.name + " soft", soft_view);
-  for (int d = 0; d < config.getNumDisplays(); ++d)
-    for (const std::string& name : names) config.addDisplaySharedView(config.getDisplay(d), name.c_str());
+/// The primaries that a display of the own config has, as night views name them.
+std::string gamut_of(const std::string& display) {
+  if (display.find("P3") != std::string::npos) return "p3";
+  return display.find("2100") != std::string::npos ? "rec2020" : "rec709";
+}
+
+/// Views of a display appear in the order they are added: the night's after the plain one, raw values last.
+void add_night_views(OCIO::Config& config, const std::vector<NightViewEntry>& nights) {
+  for (const NightViewEntry& night : nights) add_night_transform(config, night.name + " " + night.gamut, night);
+  for (int d = 0; d < config.getNumDisplays(); ++d) {
+    const std::string display = config.getDisplay(d);
+    config.removeDisplayView(display.c_str(), "Raw");
+    for (const NightViewEntry& night : nights)
+      if (night.gamut == gamut_of(display))
+        config.addDisplayView(display.c_str(), night.name.c_str(), (night.name + " " + night.gamut).c_str(),
+                              display.c_str(), "", "", night.description.c_str());
+    config.addDisplayView(display.c_str(), "Raw", "Raw", "");
+  }
 }
 
 }  // namespace
@@ -128,7 +133,7 @@ std::string reference_space(const OCIO::Config& config) {
   throw Error(ExitCode::config, "", "the config has no colour space that is its scene reference");
 }
 
-OCIO::ConfigRcPtr make_look_config(const std::vector<LookEntry>& looks, const std::string& highlight_file,
+OCIO::ConfigRcPtr make_look_config(const std::vector<LookEntry>& looks, const std::vector<NightViewEntry>& nights,
                                    const std::string& search_path) {
   OCIO::ConfigRcPtr config = make_base_config();
   config->setSearchPath(search_path.c_str());
@@ -137,8 +142,7 @@ OCIO::ConfigRcPtr make_look_config(const std::vector<LookEntry>& looks, const st
                            reference_space(*config)};
   add_noop_look(*config, "Photopic", place);
   for (const LookEntry& look : looks) add_look(*config, look, place);
-  add_highlight_view(*config, highlight_file);
-  add_views(*config, looks);
+  add_night_views(*config, nights);
   return config;
 }
 

@@ -18,7 +18,16 @@ struct LookEntry {
   std::string file;                               ///< found on the config's search path; may hold $VARIABLES
   std::optional<Matrix3<double>> matrix;          ///< instead of a file
   OCIO_NAMESPACE::ConstTransformRcPtr transform;  ///< instead of either
+  std::optional<double> gain;                     ///< of what comes out of the file
   bool view = true;                               ///< on the displays' menus, too
+};
+
+/// A view of the own config: a LUT from scene light to light of a display, for displays with these primaries.
+struct NightViewEntry {
+  std::string name;
+  std::string description;
+  std::string file;
+  std::string gamut;  ///< rec709, p3, rec2020
 };
 
 /// Where in a config looks go.
@@ -38,10 +47,9 @@ void add_noop_look(OCIO_NAMESPACE::Config& config, const std::string& name, cons
 /// The scene reference: a space without transforms that is not data. Error(config) if there is none.
 std::string reference_space(const OCIO_NAMESPACE::Config& config);
 
-/// The project's own config with looks. Every display offers each look with view true twice: as it is, and
-/// " soft" with highlights rolled off (by `highlight_file`).
+/// The project's own config with looks; each display offers the night views made for its primaries.
 OCIO_NAMESPACE::ConfigRcPtr make_look_config(const std::vector<LookEntry>& looks,
-                                             const std::string& highlight_file,
+                                             const std::vector<NightViewEntry>& nights,
                                              const std::string& search_path);
 
 /// The text of a config after OCIO's own validation; Error(config) if it finds fault.

@@ -2,17 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "stages/shared/constants.h"
 #include "looks/chain/chain_text.h"
-#include "looks/lut/highlights.h"
+#include "adaptation/thresholds.h"
+#include "color/primaries.h"
+#include "looks/lut/look_chain.h"
 #include "looks/lut/ladder.h"
 #include "looks/lut/look_matrix.h"
 #include "looks/config/sha256.h"
 
 namespace scotopic {
 namespace {
-
-constexpr const char* highlight_file = "highlight_safe.clf";
 
 LookEntry entry_of(const BakedLook& look) {
   const AppearanceParameters& p = look.spec.parameters;
@@ -53,6 +55,28 @@ LookEntry chroma_entry(const AppearanceParameters& p) {
   return entry;
 }
 
+/// The operator's light as dark as the eye sees it, without a shoulder: for those who keep a view of their own.
+LookEntry night_entry(const LookEntry& look, const AppearanceParameters& p) {
+  const double stops = visibility_stops(p.adaptation, NightDisplayParameters().rule);
+  LookEntry entry;
+  entry.name = night_name(p.adaptation);
+  entry.description = fmt::format("{}, {:.2f} stops darker: what is just visible in the scene is just visible on a display. "
+                                  "Scene-linear: under a view of your own",
+                                  look.name, -stops);
+  entry.file = look.file;
+  const double gain = std::exp2(stops);
+  entry.gain = gain;
+  entry.view = false;
+  return entry;
+}
+
+/// Primaries and peaks of the own config's displays.
+struct DisplayKind {
+  const char* gamut;
+  double peak;
+};
+constexpr DisplayKind display_kinds[] = {{"rec709", display_white}, {"p3", display_white}, {"rec2020", 1000}};
+
 }  // namespace
 
 LookSet bake_set(const std::vector<LookSpec>& specs, const ColourConfig& config, const std::string& version,
@@ -64,6 +88,9 @@ LookSet bake_set(const std::vector<LookSpec>& specs, const ColourConfig& config,
     set.luts.push_back({set.entries.back().file, xml_text(set.looks.back().chain, ChainFormat::clf)});
   }
   if (specs.empty()) return set;
+  for (std::size_t i = 0; i < specs.size(); ++i)
+    if (specs[i].parameters.model == specs.front().parameters.model)
+      set.entries.push_back(night_entry(set.entries[i], specs[i].parameters));
   if (context) set.entries.push_back(context_entry(specs.front()));
   const Model model = specs.front().parameters.model;
   for (const LookSpec& spec : specs)
@@ -72,24 +99,42 @@ LookSet bake_set(const std::vector<LookSpec>& specs, const ColourConfig& config,
   return set;
 }
 
-void add_highlights(LookSet& set, const std::string& version) {
-  set.luts.push_back({highlight_file, xml_text(highlight_chain(version), ChainFormat::clf)});
+void add_nights(LookSet& set, const std::vector<LookSpec>& specs, const ColourConfig& config, const std::string& version) {
+  for (const DisplayKind& kind : display_kinds)
+    for (LookSpec spec : specs) {
+      if (spec.parameters.model != specs.front().parameters.model) continue;
+      NightDisplayParameters& display = spec.night.emplace();
+      display.peak = kind.peak;
+      display.xyz_from_display = gamut_xyz_matrix(kind.gamut).value();
+      spec.display = kind.gamut;
+      const BakedLook& look = set.night_luts.emplace_back(bake_look(spec, config, version));
+      const std::string file = night_file_stem(spec) + ".clf";
+      set.luts.push_back({file, xml_text(look.chain, ChainFormat::clf)});
+      set.nights.push_back({look.chain.name, fmt::format("Adapted to {} cd/m2, as dark as the eye sees it; value 1 stands for "
+                                                         "{:.4g} cd/m2. {} to the program's own: {}",
+                                                         adaptation_text(spec.parameters.adaptation),
+                                                         spec.parameters.white_luminance,
+                                                         kind.peak > display_white ? "Delta E ITP" : "CIEDE2000",
+                                                         error_text(look.error)),
+                            file, kind.gamut});
+    }
 }
 
 std::string manifest_text(const LookSet& set, const std::string& version, const std::string& command) {
   std::string text =
       fmt::format("# Made by scotopic {}: {}\n# Check with: sha256sum -c MANIFEST\n", version, command);
   for (std::size_t i = 0; i < set.luts.size(); ++i) {
-    if (i < set.looks.size())
-      text += fmt::format("# {}: CIEDE2000 to the operator, {}\n", set.entries[i].name,
-                          error_text(set.looks[i].error));
+    const BakedLook& look = i < set.looks.size() ? set.looks[i] : set.night_luts[i - set.looks.size()];
+    text += fmt::format("# {}: {} to the operator, {}\n", look.chain.name,
+                        look.spec.night && look.spec.night->peak > display_white ? "delta E ITP" : "CIEDE2000",
+                        error_text(look.error));
     text += sha256(set.luts[i].text) + "  " + set.luts[i].name + "\n";
   }
   return text;
 }
 
 std::string look_config_text(const LookSet& set) {
-  return config_text(*make_look_config(set.entries, highlight_file, lut_search_path));
+  return config_text(*make_look_config(set.entries, set.nights, lut_search_path));
 }
 
 }  // namespace scotopic

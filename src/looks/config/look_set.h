@@ -20,7 +20,9 @@ struct TextFile {
 struct LookSet {
   std::vector<BakedLook> looks;
   std::vector<LookEntry> entries;  ///< of the looks, the context look and the matrix looks
-  std::vector<TextFile> luts;
+  std::vector<TextFile> luts;      ///< of the looks, then of the night views
+  std::vector<BakedLook> night_luts;
+  std::vector<NightViewEntry> nights;
 };
 
 /// Bakes `specs` (linear ones, all with the same working space), in their order. `context`: add the look that
@@ -28,8 +30,9 @@ struct LookSet {
 LookSet bake_set(const std::vector<LookSpec>& specs, const ColourConfig& config, const std::string& version,
                  bool context);
 
-/// The curve of the own config's highlight-safe views.
-void add_highlights(LookSet& set, const std::string& version);
+/// Adds the night views of the own config for each adaptation of `specs`, for displays of BT.709 and P3 (100 cd/m2) and for
+/// Rec.2100 (1000 cd/m2).
+void add_nights(LookSet& set, const std::vector<LookSpec>& specs, const ColourConfig& config, const std::string& version);
 
 /// luts/MANIFEST: what `sha256sum -c` checks; a comment before each file states its error.
 std::string manifest_text(const LookSet& set, const std::string& version, const std::string& command);
@@ -38,7 +41,7 @@ std::string manifest_text(const LookSet& set, const std::string& version, const 
 /// paths that lead out of it.)
 inline constexpr const char* lut_search_path = "luts:../luts";
 
-/// The own config with the set's looks, its LUTs in folder luts or ../luts.
+/// The own config with the set's looks and night views, its LUTs in folder luts or ../luts.
 std::string look_config_text(const LookSet& set);
 
 }  // namespace scotopic

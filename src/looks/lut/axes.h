@@ -1,6 +1,7 @@
 // Where the nodes of a look's 3D LUT lie: three axes that put them where the operator bends.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "kernel/matrix3.h"
@@ -14,10 +15,14 @@ namespace scotopic {
 /// linear interpolation, down to black -, even over the mesopic range, and low above it, where the operator
 /// is the identity; the bump lies where strong blues become photopic. Its constants are the result of a
 /// search for the least CIEDE2000 at 0.001 to 1 cd/m2.
+///
+/// With the display stage behind the operator, nodes lie where light reaches the display's peak and bends: a Gaussian of
+/// 5 stops around it, and few from 9 stops above it on.
 class LevelAxis {
  public:
-  /// `highest`: log2 of the brightest level; at least the lowest, -80, which stands for black.
-  explicit LevelAxis(double highest);
+  /// `highest`: log2 of the brightest level; at least the lowest, -80, which stands for black. `peak`: log2 of the level of
+  /// the display's peak, where there is a display.
+  explicit LevelAxis(double highest, std::optional<double> peak = std::nullopt);
 
   /// log2 of the level that stands for black.
   double lowest() const noexcept { return lowest_; }

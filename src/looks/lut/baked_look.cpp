@@ -45,7 +45,15 @@ Colours encoded_colours(const RowConverter& to_linear) {
   return light;
 }
 
+std::string stated_of_night(const BakeError& e, const LookSpec& spec) {
+  return fmt::format("Error against the operator and the display stage, {} of what is shown, {} colours of the working "
+                     "gamut, 2^-20 to 2^8 of white: mean {}; 99 % {}{}{}",
+                     spec.night->peak > display_white ? "delta E ITP" : "CIEDE2000", e.samples, rounded_text(e.mean, 2),
+                     rounded_text(e.p99, 2), max_marker, rounded_text(e.max, 2));
+}
+
 std::string stated(const BakeError& e, const LookSpec& spec) {
+  if (spec.night) return stated_of_night(e, spec);
   return fmt::format(
       "Error against the operator, CIEDE2000 with each pixel exposed to Y = 0.184, {} colours {}: mean {}; "
       "99 % {}{}{}",
@@ -106,6 +114,10 @@ BakedLook bake_look(const LookSpec& spec, const ColourConfig& config, const std:
     chain = encoded_lut(spec.parameters, spec.edge, encoding(config.to_working(space)),
                         encoding(config.from_working(space)));
     look.error = measure_encoded(spec, config, cpu_processor(ocio_transform(chain), raw));
+  } else if (spec.night) {
+    chain = night_chain(spec.parameters, *spec.night, spec.edge);
+    look.error = measure_night(spec.parameters, *spec.night, cpu_processor(ocio_transform(chain), raw),
+                               spec.parameters.xyz_from_rgb);
   } else {
     const std::optional<Matrix3<double>> matrix = look_matrix(spec.parameters);
     if (is_identity(spec.parameters))
@@ -118,10 +130,13 @@ BakedLook bake_look(const LookSpec& spec, const ColourConfig& config, const std:
                               spec.parameters.xyz_from_rgb);
   }
   const AppearanceParameters& p = spec.parameters;
-  chain.name = look_name(p);
-  chain.id = fmt::format("scotopic-{}-{}{}", look_file_stem(p), spec.edge, spec.encoded ? "-encoded" : "");
+  chain.name = spec.night ? night_name(p.adaptation) : look_name(p);
+  chain.id = fmt::format("scotopic-{}-{}{}", spec.night ? night_file_stem(spec) : look_file_stem(p), spec.edge,
+                         spec.encoded ? "-encoded" : "");
   chain.input = fmt::format("{}, 1 stands for {} cd/m2", spec.space, rounded_text(p.white_luminance, 6));
-  chain.output = spec.space;
+  chain.output = spec.night ? fmt::format("light of a display ({}, peak {} cd/m2) in {}, 1 stands for {} cd/m2", spec.display,
+                                          rounded_text(spec.night->peak, 6), spec.space, display_white)
+                            : spec.space;
   chain.descriptions = {
       fmt::format("What an eye adapted to {} cd/m2 sees, by the scotopic appearance operator {}, model {}",
                   adaptation_text(p.adaptation), version, name_of(p.model)),

@@ -1,6 +1,7 @@
 #include "looks/lut/ladder.h"
 
 #include "stages/table.h"
+#include "looks/lut/look_chain.h"
 #include "looks/lut/look_matrix.h"
 #include "looks/chain/number_text.h"
 
@@ -15,11 +16,28 @@ bool is_identity(const AppearanceParameters& p) {
   return matrix && matrix->rows == identity3<double>().rows;
 }
 
+namespace {
+
+/// "0.1 nit (street lighting)".
+std::string adaptation_name(double adaptation) {
+  std::string name = adaptation_text(adaptation) + " nit";
+  for (const LadderStep& step : ladder)
+    if (step.adaptation == adaptation) name += " (" + std::string(step.scene) + ")";
+  return name;
+}
+
+}  // namespace
+
+std::string night_name(double adaptation) { return "Night " + adaptation_name(adaptation); }
+
+std::string night_file_stem(const LookSpec& spec) {
+  const std::string peak = spec.night->peak == display_white ? "" : "_" + adaptation_text(spec.night->peak);
+  return "night_" + spec.display + peak + "_" + adaptation_text(spec.parameters.adaptation);
+}
+
 std::string look_name(const AppearanceParameters& p) {
   const bool photopic = p.model != Model::safko2019 && !(p.adaptation < photopic_luminance);
-  std::string name = (photopic ? "Photopic " : "Mesopic ") + adaptation_text(p.adaptation) + " nit";
-  for (const LadderStep& step : ladder)
-    if (step.adaptation == p.adaptation) name += " (" + std::string(step.scene) + ")";
+  std::string name = (photopic ? "Photopic " : "Mesopic ") + adaptation_name(p.adaptation);
   if (p.model != Model::filament2021) name += " " + std::string(name_of(p.model));
   return name;
 }

@@ -13,6 +13,12 @@ namespace scotopic {
 /// OCIO lists looks with them.
 std::string look_name(const AppearanceParameters& parameters);
 
+/// "Night 0.1 nit (street lighting)": as dark as the eye sees it.
+std::string night_name(double adaptation);
+
+/// "night_rec709_0.1", "night_rec2020_1000_0.1": of a LUT with the display stage.
+std::string night_file_stem(const LookSpec& spec);
+
 /// Whether the look leaves every pixel as it is.
 bool is_identity(const AppearanceParameters& parameters);
 

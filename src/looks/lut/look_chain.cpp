@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "batch/batch.h"
+#include "batch/display_batch.h"
 #include "looks/lut/axes.h"
 
 namespace scotopic {
@@ -18,9 +19,9 @@ struct Axes {
   LevelAxis level;
   ShareAxis share;
 
-  explicit Axes(const AppearanceParameters& p)
-      // White of the largest component has a level of 2 * 65504 (see LookCoordinates).
-      : level(std::max(24.0, std::log2(2 * look_limit * p.white_luminance))) {}
+  // White of the largest component has a level of 2 * 65504 (see LookCoordinates).
+  explicit Axes(const AppearanceParameters& p, std::optional<double> peak = std::nullopt)
+      : level(std::max(24.0, std::log2(2 * look_limit * p.white_luminance)), peak) {}
 
   Vec3<double> positions(const Vec3<double>& abc) const {
     const double ab = abc[0] + abc[1], sum = ab + abc[2];
@@ -58,6 +59,15 @@ class Nodes {
     rows.r = r_.data(), rows.g = g_.data(), rows.b = b_.data(), rows.count = r_.size();
     AppearanceBatch(parameters, Precision::dual).apply(rows);
   }
+  // Display light per `scale`, so that what the display shows as it is stays as it was.
+  void show(const NightDisplayParameters& display) {
+    PixelRows rows;
+    rows.r = r_.data(), rows.g = g_.data(), rows.b = b_.data(), rows.count = r_.size();
+    DisplayBatch(display, Precision::dual).apply(rows);
+    const double scale = display_scale(display);
+    for (std::vector<float>* plane : {&r_, &g_, &b_})
+      for (float& x : *plane) x = static_cast<float>(x / scale);
+  }
   void convert(const Encoding& encoding) { encoding(r_.data(), g_.data(), b_.data(), r_.size()); }
   Vec3<double> operator[](std::size_t n) const { return {r_[n], g_[n], b_[n]}; }
   std::size_t size() const { return r_.size(); }
@@ -84,12 +94,13 @@ void fill_undefined(Lut3DStep& lut) {
 /// Its nodes hold positions on the same axes as its input does: where the operator changes nothing, neither
 /// does it.
 Lut3DStep core(const AppearanceParameters& p, const Axes& axes, const Matrix3<double>& abc_from_rgb,
-               std::size_t edge) {
+               std::size_t edge, const NightDisplayParameters* display = nullptr) {
   const Matrix3<double> rgb_from_abc = inverse(abc_from_rgb);
   Nodes nodes(edge);
   nodes.fill([&](const Vec3<double>& t) { return rgb_from_abc * axes.colour(t); });
   nodes.apply(p);
-  Lut3DStep lut{edge, std::vector<double>(3 * nodes.size()), 6};
+  if (display) nodes.show(*display);
+  Lut3DStep lut{edge, std::vector<double>(3 * nodes.size()), display ? 5 : 6};
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     Vec3<double> abc = abc_from_rgb * nodes[n];
     for (double& x : abc) x = std::max(0.0, x);
@@ -133,10 +144,9 @@ MatrixStep normalised_differences(const Axes& axes) {
   return {{{{{s, -s, 0}, {0, s, -s}, {0, 0, l}}}}, {1, 1, -l * axes.level.lowest()}};
 }
 
-}  // namespace
-
-Chain look_chain(const AppearanceParameters& p, std::size_t edge) {
-  const Axes axes(p);
+/// The chain around a core; `gain`: of what comes out.
+Chain chain_of(const AppearanceParameters& p, const Axes& axes, std::size_t edge, const NightDisplayParameters* display,
+               double gain) {
   const Matrix3<double> abc_from_rgb = p.white_luminance * (LookCoordinates::from_xyz() * p.xyz_from_rgb);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   // log2 a = log2 a/(a+b) + log2 (a+b)/(a+b+c) + log2 (a+b+c), and so on.
@@ -150,13 +160,32 @@ Chain look_chain(const AppearanceParameters& p, std::size_t edge) {
                  LogStep{LogStyle::log2},
                  normalised_differences(axes),
                  positions_table(axes),
-                 core(p, axes, abc_from_rgb, edge),
+                 core(p, axes, abc_from_rgb, edge, display),
                  logarithms_table(axes),
                  MatrixStep{sums_of_logarithms, {}},
                  LogStep{LogStyle::antilog2},
-                 MatrixStep{inverse(abc_from_rgb) * LookCoordinates::differences, {}}};
+                 MatrixStep{gain * (inverse(abc_from_rgb) * LookCoordinates::differences), {}}};
   round_as_written(chain);
   return chain;
+}
+
+}  // namespace
+
+Chain look_chain(const AppearanceParameters& p, std::size_t edge) { return chain_of(p, Axes(p), edge, nullptr, 1); }
+
+NightDisplayParameters of_scene(const AppearanceParameters& p, NightDisplayParameters display) noexcept {
+  display.adaptation = p.adaptation;
+  display.white_luminance = p.white_luminance;
+  display.xyz_from_rgb = p.xyz_from_rgb;
+  return display;
+}
+
+Chain night_chain(const AppearanceParameters& p, const NightDisplayParameters& display, std::size_t edge) {
+  const NightDisplayParameters shown = of_scene(p, display);
+  const double scale = display_scale(shown);
+  // White of luminance L has a level of 2 L (see LookCoordinates).
+  const Axes axes(p, std::log2(2 * p.white_luminance / scale));
+  return chain_of(p, axes, edge, &shown, scale * shown.peak / display_white);
 }
 
 Chain encoded_lut(const AppearanceParameters& p, std::size_t edge, const Encoding& linear_from_encoded,

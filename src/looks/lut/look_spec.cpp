@@ -30,6 +30,9 @@ constexpr std::array<Word<LuminancePolicy>, 3> policies = {{{LuminancePolicy::me
 constexpr std::array<Word<RodEstimate>, 2> estimates = {
     {{RodEstimate::linear, "linear"}, {RodEstimate::quadratic, "quadratic"}}};
 
+constexpr std::array<Word<VisibilityRule>, 2> rules = {
+    {{VisibilityRule::hdrvdp2, "hdrvdp2"}, {VisibilityRule::ward1997, "ward1997"}}};
+
 template <typename Words, typename Enum>
 std::string_view word(const Words& words, Enum value) {
   for (const auto& w : words)
@@ -117,6 +120,10 @@ std::string spec_text(const LookSpec& spec) {
       word(estimates, p.rods), number_text(p.sp_ratio), number_text(p.safko_scale), spec.edge,
       spec.encoded ? 1 : 0, spec.space, spec.gamut, matrix_text(p.xyz_from_rgb));
   if (p.xyz_from_gamut) text += "; xyz_from_gamut=" + matrix_text(*p.xyz_from_gamut);
+  if (const auto& d = spec.night)
+    text += fmt::format("; display={}; peak={}; viewing={}; visibility={}; strength_display={}; xyz_from_display={}",
+                        spec.display, number_text(d->peak), number_text(d->viewing), word(rules, d->rule),
+                        number_text(d->strength), matrix_text(d->xyz_from_display));
   return text;
 }
 
@@ -151,6 +158,15 @@ std::optional<LookSpec> read_spec(std::string_view file) {
   values.read("xyz_from_rgb", p.xyz_from_rgb);
   if (line.find("; xyz_from_gamut=") != std::string_view::npos)
     values.read("xyz_from_gamut", p.xyz_from_gamut.emplace());
+  if (line.find("; display=") != std::string_view::npos) {
+    NightDisplayParameters& d = spec.night.emplace();
+    spec.display = values.text("display");
+    values.read("peak", tiny, huge, d.peak);
+    values.read("viewing", tiny, huge, d.viewing);
+    values.read("visibility", rules, d.rule);
+    values.read("strength_display", 0, 1, d.strength);
+    values.read("xyz_from_display", d.xyz_from_display);
+  }
   if (!values.whole()) return std::nullopt;
   return spec;
 }

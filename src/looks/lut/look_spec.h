@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "stages/display/night_display.h"
 #include "stages/shared/parameters.h"
 
 namespace scotopic {
@@ -16,6 +17,8 @@ struct LookSpec {
   std::string space;              ///< colour space that RGB goes in and comes out in
   bool encoded = false;           ///< one 3D LUT over encoded RGB 0..1
   std::size_t edge = 33;
+  std::optional<NightDisplayParameters> night = std::nullopt;  ///< the display stage behind it
+  std::string display;  ///< its primaries, as --gamut says such
 };
 
 /// "filament2021", "kirk2011", "safko2019".

@@ -37,7 +37,7 @@ void judge(Inspected& it) {
     it.problems.push_back(
         fmt::format("largest error {:.3g} exceeds the {:.3g} it states", it.error->max, *it.stated));
   if (!it.stated) it.problems.push_back("states no error");
-  if (it.spec && is_identity(it.spec->parameters))
+  if (it.spec && !it.spec->night && is_identity(it.spec->parameters))
     return;  // passes everything on, NaN too: so does the operator
   if (it.odd.not_finite > 0)
     it.problems.push_back(fmt::format("{} components come out not finite", it.odd.not_finite));
@@ -47,9 +47,10 @@ void judge(Inspected& it) {
 
 void measure(Inspected& it, const OCIO::ConstCPUProcessorRcPtr& processor, const ColourConfig& config) {
   it.odd = odd_pixels(processor);
-  it.error = it.spec->encoded
-                 ? measure_encoded(*it.spec, config, processor)
-                 : measure_bake(it.spec->parameters, processor, it.spec->parameters.xyz_from_rgb);
+  const AppearanceParameters& p = it.spec->parameters;
+  it.error = it.spec->encoded ? measure_encoded(*it.spec, config, processor)
+             : it.spec->night ? measure_night(p, *it.spec->night, processor, p.xyz_from_rgb)
+                              : measure_bake(p, processor, p.xyz_from_rgb);
   judge(it);
 }
 
@@ -105,6 +106,31 @@ Inspected inspect_look(const ColourConfig& config, const std::string& name) {
   return it;
 }
 
+/// The LUT in the middle of a view's transform; nullopt: it has none of ours.
+std::optional<Inspected> inspect_view(const ColourConfig& config, const std::string& name) {
+  const auto group = OCIO::DynamicPtrCast<const OCIO::GroupTransform>(
+      config.ocio()->getViewTransform(name.c_str())->getTransform(OCIO::VIEWTRANSFORM_DIR_FROM_REFERENCE));
+  for (int i = 0; group && i < group->getNumTransforms(); ++i) {
+    const auto file = OCIO::DynamicPtrCast<const OCIO::FileTransform>(group->getTransform(i));
+    if (!file) continue;
+    Inspected it;
+    it.name = "view " + name;
+    try {
+      it.file = config.ocio()->getCurrentContext()->resolveFileLocation(file->getSrc());
+    } catch (const OCIO::Exception& e) {
+      it.problems.push_back(one_line(e.what()));
+      return it;
+    }
+    const std::string text = text_of(it.file, config.limits());
+    it.spec = read_spec(text);
+    it.stated = stated_max(text);
+    if (!it.spec) return std::nullopt;
+    measure(it, lut_processor(it.file), config);
+    return it;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string text_of(const std::string& file, const Limits& limits) {
@@ -141,6 +167,8 @@ std::vector<Inspected> inspect_config(const ColourConfig& config, const std::str
     Inspected it = inspect_look(config, name);
     if (!only.empty() || it.spec || !it.problems.empty()) all.push_back(std::move(it));
   }
+  for (int i = 0; only.empty() && i < config.ocio()->getNumViewTransforms(); ++i)
+    if (auto it = inspect_view(config, config.ocio()->getViewTransformNameByIndex(i))) all.push_back(std::move(*it));
   if (!only.empty() && all.empty()) (void)look_processor(config, only);
   return all;
 }

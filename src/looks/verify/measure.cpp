@@ -9,6 +9,8 @@
 #include <limits>
 
 #include "batch/batch.h"
+#include "batch/display_batch.h"
+#include "looks/lut/look_chain.h"
 #include "stages/shared/colour_difference.h"
 #include "color/primaries.h"
 
@@ -65,13 +67,15 @@ Colours stop_colours(std::size_t count, const Matrix3<double>& xyz_from_gamut,
   return colours;
 }
 
-Comparison::Comparison(const Matrix3<double>& xyz_from_rgb)
-    : xyz_from_rgb_(xyz_from_rgb), ap1_from_rgb_(inverse(gamut_xyz_matrix("ap1").value()) * xyz_from_rgb) {}
+Comparison::Comparison(const Matrix3<double>& xyz_from_rgb) : Comparison(xyz_from_rgb, exposed_difference) {}
+
+Comparison::Comparison(const Matrix3<double>& xyz_from_rgb, Difference difference)
+    : xyz_from_rgb_(xyz_from_rgb), difference_(difference), ap1_from_rgb_(inverse(gamut_xyz_matrix("ap1").value()) * xyz_from_rgb) {}
 
 void Comparison::add(const Colours& in, const Colours& expected, const Colours& got) {
   const auto at = [](const Colours& c, std::size_t i) { return Vec3<double>{c.r[i], c.g[i], c.b[i]}; };
   for (std::size_t i = 0; i < expected.size(); ++i, ++seen_) {
-    const double d = exposed_difference(xyz_from_rgb_ * at(expected, i), xyz_from_rgb_ * at(got, i));
+    const double d = difference_(xyz_from_rgb_ * at(expected, i), xyz_from_rgb_ * at(got, i));
     if (outside(ap1_from_rgb_ * at(in, i))) {
       ++worst_.outside;
       worst_.outside_max = std::max(worst_.outside_max, d);
@@ -109,6 +113,14 @@ Colours exact(const AppearanceParameters& parameters, Colours colours) {
   return colours;
 }
 
+Colours exact_night(const AppearanceParameters& parameters, const NightDisplayParameters& display, Colours colours) {
+  colours = exact(parameters, std::move(colours));
+  PixelRows rows;
+  rows.r = colours.r.data(), rows.g = colours.g.data(), rows.b = colours.b.data(), rows.count = colours.size();
+  DisplayBatch(of_scene(parameters, display), Precision::dual).apply(rows);
+  return colours;
+}
+
 void apply(const OCIO::ConstCPUProcessorRcPtr& processor, Colours& c) {
   if (c.size() == 0) return;
   OCIO::PlanarImageDesc image(c.r.data(), c.g.data(), c.b.data(), nullptr, static_cast<long>(c.size()), 1);
@@ -122,6 +134,20 @@ BakeError measure_bake(const AppearanceParameters& parameters, const OCIO::Const
   apply(processor, got);
   Comparison comparison(parameters.xyz_from_rgb);
   comparison.add(in, exact(parameters, in), got);
+  return comparison.result();
+}
+
+BakeError measure_night(const AppearanceParameters& p, const NightDisplayParameters& display,
+                        const OCIO::ConstCPUProcessorRcPtr& processor, const Matrix3<double>& xyz_from_gamut,
+                        std::size_t count) {
+  const Colours in = stop_colours(count, xyz_from_gamut, p.xyz_from_rgb);
+  Colours got = in, expected = exact_night(p, display, in);
+  apply(processor, got);
+  // In units of 100 cd/m2, both.
+  for (auto* plane : {&expected.r, &expected.g, &expected.b})
+    for (float& x : *plane) x = static_cast<float>(x * display.peak / display_white);
+  Comparison comparison(p.xyz_from_rgb, display.peak > display_white ? itp_difference : shown_difference);
+  comparison.add(in, expected, got);
   return comparison.result();
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "stages/display/night_display.h"
 #include "stages/shared/parameters.h"
 
 namespace scotopic {
@@ -43,6 +44,10 @@ class Comparison {
   /// For linear RGB that this matrix takes to XYZ (D65).
   explicit Comparison(const Matrix3<double>& xyz_from_rgb);
 
+  /// How different two XYZ (D65) are; the default is exposed_difference().
+  using Difference = double (*)(const Vec3<double>& expected, const Vec3<double>& got);
+  Comparison(const Matrix3<double>& xyz_from_rgb, Difference difference);
+
   /// Planar linear RGB, all of one size.
   void add(const Colours& in, const Colours& expected, const Colours& got);
   /// Over all that was added.
@@ -50,6 +55,7 @@ class Comparison {
 
  private:
   Matrix3<double> xyz_from_rgb_;
+  Difference difference_;
   Matrix3<double> ap1_from_rgb_;
   std::size_t seen_ = 0;
   std::vector<float> differences_;
@@ -67,6 +73,15 @@ void apply(const OCIO_NAMESPACE::ConstCPUProcessorRcPtr& processor, Colours& col
 BakeError measure_bake(const AppearanceParameters& parameters,
                        const OCIO_NAMESPACE::ConstCPUProcessorRcPtr& processor,
                        const Matrix3<double>& xyz_from_gamut, std::size_t count = 100000);
+
+/// The operator and the display stage behind it; linear light of the display in the RGB that goes in, 1 = its peak.
+Colours exact_night(const AppearanceParameters& parameters, const NightDisplayParameters& display, Colours colours);
+
+/// exact_night() against a processor whose 1 is display_white, on the display-referred light itself: CIEDE2000 of what a
+/// display of 100 cd/m2 shows; above that peak, 720 times the distance in ICtCp (ITU-R BT.2124).
+BakeError measure_night(const AppearanceParameters& parameters, const NightDisplayParameters& display,
+                        const OCIO_NAMESPACE::ConstCPUProcessorRcPtr& processor, const Matrix3<double>& xyz_from_gamut,
+                        std::size_t count = 100000);
 
 /// Pixels with NaN, infinities, negatives and denormals in every place: how many components come out not
 /// finite, and whether alpha kept its bits.

@@ -100,4 +100,41 @@ double exposed_difference(const Vec3<double>& reference, const Vec3<double>& oth
   return ciede2000(lab_from_xyz(expose(reference)), lab_from_xyz(expose(other)));
 }
 
+double shown_difference(const Vec3<double>& reference, const Vec3<double>& other) noexcept {
+  return ciede2000(lab_from_xyz(reference), lab_from_xyz(other));
+}
+
+namespace {
+
+/// PQ code (SMPTE ST 2084) of a luminance in units of 100 cd/m2.
+double pq_code(double light) {
+  constexpr double m1 = 2610.0 / 16384, m2 = 2523.0 / 4096 * 128, c1 = 3424.0 / 4096, c2 = 2413.0 / 4096 * 32,
+                   c3 = 2392.0 / 4096 * 32;
+  const double y = std::pow(std::clamp(light / 100, 0.0, 1.0), m1);
+  return std::pow((c1 + c2 * y) / (1 + c3 * y), m2);
+}
+
+Vec3<double> itp_from_xyz(const Vec3<double>& xyz) {
+  // BT.2020 RGB from XYZ, and the LMS of BT.2100.
+  constexpr Matrix3<double> rgb_from_xyz{{{{1.716651187971268, -0.355670783776392, -0.253366281373660},
+                                           {-0.666684351832489, 1.616481236634939, 0.015768545813911},
+                                           {0.017639857445311, -0.042770613257809, 0.942103121235474}}}};
+  constexpr Matrix3<double> lms_from_rgb{{{{1688.0 / 4096, 2146.0 / 4096, 262.0 / 4096},
+                                           {683.0 / 4096, 2951.0 / 4096, 462.0 / 4096},
+                                           {99.0 / 4096, 309.0 / 4096, 3688.0 / 4096}}}};
+  Vec3<double> lms = lms_from_rgb * (rgb_from_xyz * xyz);
+  for (double& x : lms) x = pq_code(x);
+  const double i = (lms[0] + lms[1]) / 2;
+  const double ct = (6610 * lms[0] - 13613 * lms[1] + 7003 * lms[2]) / 4096;
+  const double cp = (17933 * lms[0] - 17390 * lms[1] - 543 * lms[2]) / 4096;
+  return {i, ct / 2, cp};
+}
+
+}  // namespace
+
+double itp_difference(const Vec3<double>& reference, const Vec3<double>& other) noexcept {
+  const Vec3<double> a = itp_from_xyz(reference), b = itp_from_xyz(other);
+  return 720 * std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
 }  // namespace scotopic

@@ -1,6 +1,8 @@
 // Configs with looks: the project's own, and a studio's that gets some.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <algorithm>
 #include <set>
 #include <sstream>
@@ -10,7 +12,9 @@
 #include "looks/lut/ladder.h"
 #include "looks/config/look_set.h"
 #include "looks/chain/ocio_chain.h"
+#include "adaptation/thresholds.h"
 #include "looks/support.h"
+#include "looks/verify/measure.h"
 #include "base/error.h"
 
 namespace OCIO = OCIO_NAMESPACE;
@@ -33,8 +37,9 @@ class OwnConfig : public testing::Test {
  protected:
   void SetUp() override {
     const ColourConfig own = ColourConfig::own();
-    set_ = bake_set({spec_at(10, own), spec_at(0.1, own), spec_at(0.01, own)}, own, "test", true);
-    add_highlights(set_, "test");
+    const std::vector<LookSpec> specs = {spec_at(10, own), spec_at(0.1, own), spec_at(0.01, own)};
+    set_ = bake_set(specs, own, "test", true);
+    add_nights(set_, specs, own, "test");
     for (const TextFile& lut : set_.luts) folder_.write("luts/" + lut.name, lut.text);
     folder_.write("luts/MANIFEST", manifest_text(set_, "test", "bake"));
     text_ = look_config_text(set_);
@@ -54,6 +59,7 @@ class OwnConfig : public testing::Test {
 };
 
 constexpr const char* street = "Mesopic 0.1 nit (street lighting)";
+constexpr const char* night = "Night 0.1 nit (street lighting)";
 constexpr const char* linear = "Linear Rec.709 (sRGB)";
 
 OCIO::LookTransformRcPtr look_transform(const char* look) {
@@ -76,7 +82,7 @@ TEST_F(OwnConfig, first_look_changes_nothing) {
   EXPECT_TRUE(config_->getProcessor(look_transform("Photopic"))->isNoOp());
 }
 
-TEST_F(OwnConfig, a_look_is_the_same_as_look_as_space_and_as_view) {
+TEST_F(OwnConfig, a_look_is_the_same_as_look_and_as_space) {
   const auto as_look = through(look_transform(street));
   OCIO::ColorSpaceTransformRcPtr space = OCIO::ColorSpaceTransform::Create();
   space->setSrc(linear);
@@ -85,57 +91,60 @@ TEST_F(OwnConfig, a_look_is_the_same_as_look_as_space_and_as_view) {
   EXPECT_NE(as_look[2], 0.2f);
   for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(as_space[c], as_look[c], 2e-6f) << c;
   EXPECT_EQ(as_look[3], 0.25f);
-
-  OCIO::DisplayViewTransformRcPtr view = OCIO::DisplayViewTransform::Create();
-  view->setSrc(linear);
-  view->setDisplay("sRGB - Display");
-  view->setView(street);
-  OCIO::DisplayViewTransformRcPtr plain = OCIO::DisplayViewTransform::Create();
-  plain->setSrc(street);
-  plain->setDisplay("sRGB - Display");
-  plain->setView("Un-tone-mapped");
-  OCIO::GroupTransformRcPtr look_then_plain = OCIO::GroupTransform::Create();
-  look_then_plain->appendTransform(look_transform(street));
-  plain->setSrc(linear);
-  look_then_plain->appendTransform(plain);
-  const auto seen = through(view), expected = through(look_then_plain);
-  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], expected[c], 2e-6f) << c;
 }
 
-TEST_F(OwnConfig, every_display_offers_every_ladder_look_plain_and_soft) {
-  ASSERT_EQ(config_->getNumDisplays(), 3);
-  for (int d = 0; d < 3; ++d) {
-    std::set<std::string> views;
+TEST_F(OwnConfig, every_display_offers_one_row_of_night_views) {
+  ASSERT_EQ(config_->getNumDisplays(), 4);
+  for (int d = 0; d < 4; ++d) {
+    std::vector<std::string> views;
     for (int v = 0; v < config_->getNumViews(config_->getDisplay(d)); ++v)
-      views.insert(config_->getView(config_->getDisplay(d), v));
-    for (const char* view :
-         {"Un-tone-mapped", "Highlight-safe", "Raw", street, "Mesopic 0.1 nit (street lighting) soft",
-          "Mesopic 0.01 nit (full moon)", "Photopic 10 nit (lamplit room)"})
-      EXPECT_TRUE(views.count(view)) << config_->getDisplay(d) << ": " << view;
+      views.emplace_back(config_->getView(config_->getDisplay(d), v));
+    EXPECT_EQ(views, (std::vector<std::string>{"Un-tone-mapped", "Night 10 nit (lamplit room)", night,
+                                               "Night 0.01 nit (full moon)", "Raw"}))
+        << config_->getDisplay(d);
   }
 }
 
-TEST_F(OwnConfig, highlight_safe_is_plain_below_half_and_never_reaches_one) {
-  const auto seen = [&](const char* view, float value) {
-    OCIO::DisplayViewTransformRcPtr transform = OCIO::DisplayViewTransform::Create();
-    transform->setSrc(linear);
-    transform->setDisplay("Rec.1886 Rec.709 - Display");
-    transform->setView(view);
-    float pixel[3] = {value, value, value};
-    // OpenColorIO's default, faster and looser from one release to the next, is its own affair.
-    config_->getProcessor(transform)
-        ->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS)
-        ->applyRGB(pixel);
-    return pixel[1];
+/// Linear light of a display, in working RGB, that a view shows of the pixel.
+Vec3<double> shown(const OCIO::ConstConfigRcPtr& config, const char* display, const char* view, Vec3<float> pixel) {
+  OCIO::DisplayViewTransformRcPtr transform = OCIO::DisplayViewTransform::Create();
+  transform->setSrc(linear);
+  transform->setDisplay(display);
+  transform->setView(view);
+  OCIO::ColorSpaceTransformRcPtr back = OCIO::ColorSpaceTransform::Create();
+  back->setSrc(display);
+  back->setDst(linear);
+  OCIO::GroupTransformRcPtr both = OCIO::GroupTransform::Create();
+  both->appendTransform(transform);
+  both->appendTransform(back);
+  config->getProcessor(both)->getDefaultCPUProcessor()->applyRGB(pixel.data());
+  return {pixel[0], pixel[1], pixel[2]};
+}
+
+TEST_F(OwnConfig, a_night_view_is_the_operator_and_the_display_stage) {
+  struct Row {
+    const char *display, *gamut;
+    double peak, tolerance;  // of the peak: 17 nodes a side
   };
-  for (const float v : {0.001f, 0.02f, 0.18f, 0.45f})
-    EXPECT_NEAR(seen("Highlight-safe", v), seen("Un-tone-mapped", v), 2e-4f) << v;
-  float last = 0;
-  for (float v = 0.5f; v < 200; v *= 1.5f) {
-    EXPECT_GE(seen("Highlight-safe", v), last);
-    last = seen("Highlight-safe", v);
-    EXPECT_LE(last, 1.0005f);
-  }
+  for (const Row& row : {Row{"sRGB - Display", "rec709", 100, 0.03}, Row{"Rec.1886 Rec.709 - Display", "rec709", 100, 0.03},
+                         Row{"Display P3 - Display", "p3", 100, 0.03}, Row{"Rec.2100-PQ - Display", "rec2020", 1000, 0.06}})
+    for (const Vec3<float>& pixel : {Vec3<float>{0.02f, 0.05f, 0.2f}, {0.18f, 0.18f, 0.18f}, {60, 2, 0.5f}, {3000, 2000, 900}}) {
+      AppearanceParameters p = test::adapted_to(0.1);
+      NightDisplayParameters d;
+      d.peak = row.peak;
+      d.xyz_from_display = gamut_xyz_matrix(row.gamut).value();
+      const Colours expected = exact_night(p, d, {{pixel[0]}, {pixel[1]}, {pixel[2]}});
+      const Vec3<double> seen = shown(config_, row.display, night, pixel);
+      const double peaks = row.peak / 100;
+      for (const auto& [got, wanted] : {std::pair(seen[0], expected.r[0]), std::pair(seen[1], expected.g[0]), std::pair(seen[2], expected.b[0])})
+        EXPECT_NEAR(got / peaks, wanted, row.tolerance) << row.display << " " << pixel[0];
+    }
+}
+
+TEST_F(OwnConfig, a_night_look_is_the_look_as_dark_as_the_eye_sees_it) {
+  const auto look = through(look_transform(street)), dimmed = through(look_transform(night));
+  const double gain = std::exp2(visibility_stops(0.1, VisibilityRule::hdrvdp2));
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(dimmed[c], gain * static_cast<double>(look[c]), 1e-6) << c;
 }
 
 TEST_F(OwnConfig, the_context_variable_chooses_the_luminance) {
