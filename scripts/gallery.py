@@ -140,9 +140,16 @@ def night_scene(studio):
     return studio.scene(shrunk(cut(read(WORLDS + 'night.exr')[..., :3], 0, 60, 640, 360), 2))
 
 
+def sent(studio, picture, options):
+    """What the program itself writes for a display: 8 bits, no exposure of ours."""
+    name = studio.file('.png')
+    subprocess.run([studio.program, 'apply', picture, '-o', name, '-q', '-d', 'uint8', *options.split()], check=True)
+    return numpy.round(255 * read(name)[..., :3]).astype(numpy.uint8)
+
+
 def night_ladder(studio):
     night = night_scene(studio)
-    pictures = [shown(studio.seen(night, f'--adaptation {la}'), 1.2, True) for la in LADDER]
+    pictures = [sent(studio, night, f'--adaptation {la} --effects shift,luminance,chroma') for la in LADDER]
     return tiled([pictures[i:i + 3] for i in range(0, 9, 3)])
 
 
@@ -178,14 +185,9 @@ def thesis(studio):
 def display(studio):
     """What the program itself sends to a display: 8 bits, no exposure of ours."""
     night = night_scene(studio)
-    plain = shown(studio.seen(night, '--adaptation .05'), 1.2)
-    sent = []
-    for options in ('', '--model kirk2011'):
-        name = studio.file('.png')
-        subprocess.run([studio.program, 'apply', night, '-o', name, '-q', '-d', 'uint8', '--adaptation', '.05', '--display',
-                        'Un-tone-mapped', *options.split()], check=True)
-        sent.append(numpy.round(255 * read(name)[..., :3]).astype(numpy.uint8))
-    return tiled([[plain, *sent]])
+    colour = '--adaptation .05 --effects shift,luminance,chroma '
+    return tiled([[sent(studio, night, colour + '--display none'), sent(studio, night, colour),
+                   sent(studio, night, colour + '--display Un-tone-mapped --tone local')]])
 
 
 def effects(studio):
