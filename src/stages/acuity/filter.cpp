@@ -153,10 +153,6 @@ AcuityFilter& AcuityFilter::operator=(AcuityFilter&&) noexcept = default;
 int AcuityFilter::halo() const noexcept { return plan_->halo; }
 AcuityEngine AcuityFilter::engine() const noexcept { return plan_->engine; }
 
-void serial_for(int count, const std::function<void(int)>& task) {
-  for (int i = 0; i < count; ++i) task(i);
-}
-
 namespace {
 
 /// The part of the window that the tile needs.

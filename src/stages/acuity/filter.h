@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <memory>
 
 #include "kernel/matrix3.h"
+#include "stages/shared/parallel_for.h"
 
 namespace scotopic {
 
@@ -58,12 +58,6 @@ struct AcuityTile {
   std::ptrdiff_t stride = 0;
   int x = 0, y = 0, width = 0, height = 0;
 };
-
-/// Runs task(0) ... task(count-1), on any threads in any order, and returns when all are done.
-using ParallelFor = std::function<void(int count, const std::function<void(int)>& task)>;
-
-/// One task after the other, on the calling thread.
-void serial_for(int count, const std::function<void(int)>& task);
 
 /// A filter of an image's light that looks at the pixels around each. Immutable: share it between threads.
 class SpatialFilter {

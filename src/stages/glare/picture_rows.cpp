@@ -1,0 +1,140 @@
+#include "stages/glare/picture_rows.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "stages/glare/picture_rows.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+HWY_BEFORE_NAMESPACE();
+namespace scotopic::glare::HWY_NAMESPACE {
+namespace {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<float, 16>;
+using V = hn::Vec<D>;
+
+HWY_INLINE int lanes() { return static_cast<int>(hn::Lanes(D())); }
+
+using Mask = hn::Mask<D>;
+
+/// `count` floats of a picture's row, which may have no more.
+HWY_INLINE V load_some(const float* from, int count) {
+  const D d;
+  if (count >= lanes()) return hn::LoadU(d, from);
+  HWY_ALIGN float some[HWY_MAX_BYTES / sizeof(float)] = {};
+  std::copy(from, from + count, some);
+  return hn::Load(d, some);
+}
+
+HWY_INLINE void store_some(V v, float* to, int count) {
+  const D d;
+  if (count >= lanes()) return hn::StoreU(v, d, to);
+  HWY_ALIGN float some[HWY_MAX_BYTES / sizeof(float)];
+  hn::Store(v, d, some);
+  std::copy(some, some + count, to);
+}
+
+struct Colour {
+  V r, g, b;
+};
+
+HWY_INLINE Colour load_rgb(const PictureRow& row, int x, int count) {
+  return {load_some(row.rgb[0] + x, count), load_some(row.rgb[1] + x, count),
+          load_some(row.rgb[2] + x, count)};
+}
+
+HWY_INLINE V greatest(Colour c) { return hn::Max(c.r, hn::Max(c.g, c.b)); }
+
+/// NaN compares false; a comparison each, as a maximum may lose one.
+HWY_INLINE Mask operable(V v) { return hn::Le(hn::Abs(v), hn::Set(D(), 0x1p120f)); }
+HWY_INLINE Mask operable(Colour c) { return hn::And(operable(c.r), hn::And(operable(c.g), operable(c.b))); }
+
+}  // namespace
+
+std::ptrdiff_t CountAbove(const PictureRow& row, float threshold, int width) {
+  const V t = hn::Set(D(), threshold);
+  std::size_t count = 0;
+  const auto look = [&](int x, int some) HWY_ATTR {
+    const Colour c = load_rgb(row, x, some);
+    // Where there is a NaN, the maximum is it or one of the others: seldom, and then looked at again.
+    const Mask above = hn::Or(hn::Gt(c.r, t), hn::Or(hn::Gt(c.g, t), hn::Gt(c.b, t)));
+    if (hn::AllFalse(D(), above)) return;
+    Mask counted = hn::And(above, operable(c));
+    if (some < lanes()) counted = hn::And(counted, hn::FirstN(D(), static_cast<std::size_t>(some)));
+    count += hn::CountTrue(D(), counted);
+  };
+  for (int x = 0; x < width; x += lanes()) look(x, width - x);
+  return static_cast<std::ptrdiff_t>(count);
+}
+
+bool ExcessRow(const Excess& excess, const PictureRow& row, float* const* out, int width) {
+  const D d;
+  const V t = hn::Set(d, excess.threshold), zero = hn::Zero(d);
+  const auto planes = static_cast<std::size_t>(excess.planes);
+  Mask all_fine = hn::Eq(zero, zero);
+  for (int x = 0; x < width; x += lanes()) {
+    const int some = width - x;
+    const Colour c = load_rgb(row, x, some);
+    Mask fine = operable(c);
+    V light[most_light];
+    for (std::size_t k = 0; k < planes; ++k) {
+      light[k] = load_some(row.light[k] + x, some);
+      fine = hn::And(fine, operable(light[k]));
+    }
+    all_fine = hn::And(all_fine, fine);
+    V share = hn::Set(d, 1.0f);
+    if (excess.share == GlareShare::above) {
+      const V v = greatest(c);
+      share = hn::IfThenElse(hn::Gt(v, t), hn::Div(hn::Sub(v, t), v), zero);
+    }
+    for (std::size_t k = 0; k < planes; ++k)
+      hn::StoreU(hn::IfThenElseZero(fine, hn::Sub(hn::Mul(share, light[k]), hn::Set(d, excess.less[k]))), d,
+                 out[k] + x);
+    hn::StoreU(hn::IfThenElseZero(fine, hn::Set(d, 1.0f)), d, out[planes] + x);
+  }
+  return hn::AllTrue(d, all_fine);
+}
+
+void ScatterRow(const Excess& excess, const PictureRow& row, const float* const* e, const float* const* ke,
+                int width) {
+  const D d;
+  const auto planes = static_cast<std::size_t>(excess.planes);
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  for (int x = 0; x < width; x += lanes()) {
+    const int some = width - x;
+    const Mask fine = hn::Ne(hn::LoadU(d, e[planes] + x), zero);
+    const V stays = hn::Sub(one, hn::LoadU(d, ke[planes] + x));
+    for (std::size_t k = 0; k < planes; ++k) {
+      const V p = load_some(row.light[k] + x, some), own = hn::LoadU(d, e[k] + x),
+              come = hn::LoadU(d, ke[k] + x);
+      const Mask touched = hn::And(fine, hn::Or(hn::Ne(own, zero), hn::Ne(come, zero)));
+      const V out = hn::Add(hn::Add(hn::Sub(p, own), hn::Mul(own, stays)), come);
+      store_some(hn::IfThenElse(touched, out, p), row.light[k] + x, some);
+    }
+  }
+}
+
+}  // namespace scotopic::glare::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace scotopic::glare {
+HWY_EXPORT(CountAbove);
+HWY_EXPORT(ExcessRow);
+HWY_EXPORT(ScatterRow);
+
+std::ptrdiff_t count_above(const PictureRow& row, float threshold, int width) {
+  return HWY_DYNAMIC_DISPATCH(CountAbove)(row, threshold, width);
+}
+bool excess_row(const Excess& excess, const PictureRow& row, float* const* out, int width) {
+  return HWY_DYNAMIC_DISPATCH(ExcessRow)(excess, row, out, width);
+}
+void scatter_row(const Excess& excess, const PictureRow& row, const float* const* e, const float* const* ke,
+                 int width) {
+  HWY_DYNAMIC_DISPATCH(ScatterRow)(excess, row, e, ke, width);
+}
+}  // namespace scotopic::glare
+#endif

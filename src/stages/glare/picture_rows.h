@@ -1,0 +1,38 @@
+// Rows of a picture: what scatters of them, and what they are once it has. Vectorised, the same on every
+// instruction set.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "stages/glare/pyramid/rows.h"
+
+namespace scotopic::glare {
+
+/// Which light scatters. v = max(R, G, B); above: the share max(0, v - t)/v of each plane; all: all.
+enum class GlareShare { above, all };
+struct Excess {
+  GlareShare share;
+  float threshold;
+  int planes;                            ///< that scatter
+  std::array<float, most_light> less{};  ///< c of each plane: the excess of a flat picture is 0
+};
+
+/// A row of the picture: what decides, and what scatters; `light` may be the same planes.
+struct PictureRow {
+  std::array<const float*, 3> rgb;
+  std::array<float*, most_light> light;
+};
+
+/// How many pixels are finite and have v > threshold. Pixels beyond 2^120 count as not finite, everywhere
+/// here.
+std::ptrdiff_t count_above(const PictureRow& row, float threshold, int width);
+/// out[k] = excess of plane k, 0 where not finite; out[planes] = 1 where finite, else 0. Samples 0 ... width
+/// - 1, and rubbish beyond. True where all are finite.
+bool excess_row(const Excess& excess, const PictureRow& row, float* const* out, int width);
+/// light = (p - e) + e (1 - km) + ke, or p as it is where e and ke are both 0 or the pixel is not finite.
+/// e[planes] is the mask, ke[planes] the blurred mask km.
+void scatter_row(const Excess& excess, const PictureRow& row, const float* const* e, const float* const* ke,
+                 int width);
+
+}  // namespace scotopic::glare

@@ -1,0 +1,122 @@
+#include "stages/glare/plan.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <vector>
+
+namespace scotopic::glare {
+namespace {
+
+constexpr int rows_of_task = 64;
+
+int tasks_of(int height) { return (height + rows_of_task - 1) / rows_of_task; }
+
+void add_row(const Rows& rows, int planes, int width, Extremes& into) {
+  const float* const mask = rows.row(planes);
+  for (int k = 0; k < planes; ++k) {
+    const float* const row = rows.row(k);
+    for (int x = 0; x < width; ++x)
+      if (mask[x] != 0) into.add(static_cast<std::size_t>(k), row[x], row[x]);
+  }
+}
+
+/// Rows of excess, for one row of the picture.
+struct ExcessRows {
+  ExcessRows(const Plan& plan, int planes) : rows(plan.width(), planes + 1) {
+    for (int k = 0; k <= planes; ++k) out[static_cast<std::size_t>(k)] = rows.row(k);
+  }
+  Rows rows;
+  std::array<float*, most_planes> out{};
+};
+
+}  // namespace
+
+Extremes::Extremes() {
+  least.fill(std::numeric_limits<float>::infinity());
+  greatest.fill(-std::numeric_limits<float>::infinity());
+}
+
+void Extremes::add(std::size_t plane, float least_value, float greatest_value) {
+  least[plane] = std::min(least[plane], least_value);
+  greatest[plane] = std::max(greatest[plane], greatest_value);
+}
+
+float Extremes::constant(std::size_t plane) const {
+  if (!(least[plane] <= greatest[plane])) return 0;
+  return least[plane] >= 0 ? least[plane] : std::min(greatest[plane], 0.0f);
+}
+
+bool Extremes::flat() const {
+  for (std::size_t k = 0; k < most_light; ++k)
+    if (least[k] < greatest[k]) return false;
+  return true;
+}
+
+bool some_pixel_keeps_all(const Plan& plan, const GlarePicture& picture) {
+  const Excess excess = excess_of(plan, picture);
+  ExcessRows own(plan, excess.planes);
+  for (int y = 0; y < plan.height(); ++y) {
+    excess_row(excess, row_of(picture, y), own.out.data(), plan.width());
+    for (int x = 0; x < plan.width(); ++x) {
+      const auto none = [x](const float* row) { return row[x] == 0; };
+      if (own.out[static_cast<std::size_t>(excess.planes)][x] != 0 &&
+          std::all_of(own.out.begin(), own.out.begin() + excess.planes, none))
+        return true;
+    }
+  }
+  return false;
+}
+
+void for_bands(int height, int rows, const ParallelFor& parallel_for,
+               const std::function<void(int, int, int)>& task) {
+  parallel_for((height + rows - 1) / rows,
+               [&](int i) { task(i, i * rows, std::min((i + 1) * rows, height)); });
+}
+
+std::ptrdiff_t count_above(const Plan& plan, const GlarePicture& picture, const ParallelFor& parallel_for) {
+  std::vector<std::ptrdiff_t> counts(static_cast<std::size_t>(tasks_of(plan.height())));
+  for_bands(plan.height(), rows_of_task, parallel_for, [&](int task, int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      counts[static_cast<std::size_t>(task)] += count_above(row_of(picture, y), plan.threshold, plan.width());
+  });
+  return std::accumulate(counts.begin(), counts.end(), std::ptrdiff_t{0});
+}
+
+Extremes extremes(const Plan& plan, const GlarePicture& picture, const ParallelFor& parallel_for) {
+  const Excess excess = excess_of(plan, picture);
+  std::vector<Extremes> parts(static_cast<std::size_t>(tasks_of(plan.height())));
+  for_bands(plan.height(), rows_of_task, parallel_for, [&](int task, int begin, int end) {
+    ExcessRows own(plan, excess.planes);
+    for (int y = begin; y < end; ++y) {
+      excess_row(excess, row_of(picture, y), own.out.data(), plan.width());
+      add_row(own.rows, excess.planes, plan.width(), parts[static_cast<std::size_t>(task)]);
+    }
+  });
+  Extremes all;
+  for (const Extremes& part : parts)
+    for (std::size_t k = 0; k < most_light; ++k) all.add(k, part.least[k], part.greatest[k]);
+  return all;
+}
+
+void check_picture(const Plan& plan, const GlarePicture& picture) {
+  if (picture.light.empty() || picture.light.size() > most_light)
+    throw std::invalid_argument("glare: 1 to 7 planes of light");
+  const auto given = [](const float* plane) { return plane != nullptr; };
+  if (!std::all_of(picture.rgb.begin(), picture.rgb.end(), given) ||
+      !std::all_of(picture.light.begin(), picture.light.end(), given))
+    throw std::invalid_argument("glare: a plane is missing");
+  if (picture.stride < plan.width()) throw std::invalid_argument("glare: rows overlap");
+}
+
+Excess excess_of(const Plan& plan, const GlarePicture& picture) {
+  const bool above = plan.parameters.rule == GlareRule::above;
+  return {above ? GlareShare::above : GlareShare::all,
+          plan.threshold,
+          static_cast<int>(picture.light.size()),
+          {}};
+}
+
+}  // namespace scotopic::glare

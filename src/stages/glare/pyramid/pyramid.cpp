@@ -1,0 +1,176 @@
+#include "stages/glare/pyramid/pyramid.h"
+
+#include <algorithm>
+#include <array>
+
+namespace scotopic::glare {
+namespace {
+
+constexpr int rows_of_task = 32;
+
+/// Runs task(y) for begin <= y < end, in tasks of neighbouring rows; `make` gives each task what it works in.
+template <typename Make, typename Task>
+void for_rows(int begin, int end, const ParallelFor& parallel_for, Make make, Task task) {
+  parallel_for((end - begin + rows_of_task - 1) / rows_of_task, [&](int i) {
+    auto own = make();
+    const int first = begin + i * rows_of_task;
+    for (int y = first; y < std::min(first + rows_of_task, end); ++y) task(y, own);
+  });
+}
+
+/// The last rows of level 0 of every plane, by row modulo 8: halving looks at five.
+struct Ring {
+  Ring(const Level& picture, int plane_count)
+      : planes(plane_count), rows(picture.width, 8 * plane_count + 1) {}
+  float* row(int plane, int y) { return rows.row(1 + plane * 8 + (y & 7)); }
+  const float* zeros() { return rows.row(0); }
+  int planes;
+  Rows rows;
+  int next = -1;  ///< the first row not yet here
+};
+
+void fill(Ring& ring, const Level& picture, const Pyramid::RowSource& source, int from, int to) {
+  for (int y = std::max({from, ring.next, 0}); y <= std::min(to, picture.height - 1); ++y) {
+    std::array<float*, most_planes> rows{};
+    for (int p = 0; p < ring.planes; ++p) rows[static_cast<std::size_t>(p)] = ring.row(p, y);
+    source(y, rows.data());
+    ring.next = y + 1;
+  }
+}
+
+/// Offsets of rows in a panorama or a picture; the weight of two samples of the last level.
+double weight(const Ladder& ladder, int dx, int dy) {
+  return static_cast<double>(
+      ladder.top[static_cast<std::size_t>(std::abs(dy) * ladder.top_width + std::abs(dx))]);
+}
+
+/// sums[x] += what row `from`, dy rows away, sends there.
+void add_top_row(const Ladder& ladder, const float* from, int dy, std::vector<double>& sums) {
+  const Level& level = ladder.levels.back();
+  for (int x = level.x_begin; x < level.x_end; ++x) {
+    if (from[x] == 0) continue;
+    for (int to = level.x_begin; to < level.x_end; ++to)
+      sums[static_cast<std::size_t>(to - level.x_begin)] +=
+          weight(ladder, to - x, dy) * static_cast<double>(from[x]);
+  }
+}
+
+}  // namespace
+
+Planes::Planes(const Level& level, int planes)
+    : begin_(level.y_begin),
+      end_(level.y_end),
+      rows_(level.width, 1 + static_cast<std::ptrdiff_t>(planes) * (level.y_end - level.y_begin)) {}
+
+std::size_t Planes::bytes(const Level& level, int planes) {
+  const auto rows =
+      1 + static_cast<std::size_t>(planes) * static_cast<std::size_t>(level.y_end - level.y_begin);
+  return rows * static_cast<std::size_t>(row_floats(level.width)) * sizeof(float);
+}
+
+void add_rungs(const Level& level, const float* const* rows, int begin, int end, Scratch& scratch,
+               float* out) {
+  std::array<float*, most_rungs> columns{};
+  for (std::size_t r = 0; r < most_rungs; ++r) columns[r] = scratch.rows.row(static_cast<std::ptrdiff_t>(r));
+  blur_columns(level, rows, columns.data(), level.width);
+  blur_row_add(level, columns.data(), out, begin, end);
+}
+
+Pyramid::Pyramid(const Ladder& ladder, int planes) : ladder_(ladder), planes_(planes) {
+  for (int j = 1; j <= last(); ++j) {
+    sharp_.emplace_back(level(j), planes);
+    blurred_.emplace_back(level(j), planes);
+  }
+}
+
+std::size_t Pyramid::bytes(const Ladder& ladder, int planes) {
+  std::size_t sum = 0;
+  for (std::size_t j = 1; j < ladder.levels.size(); ++j) sum += 2 * Planes::bytes(ladder.levels[j], planes);
+  return sum;
+}
+
+void Pyramid::build(const RowSource& source, const ParallelFor& parallel_for) {
+  halve_picture(source, parallel_for);
+  for (int j = 2; j <= last(); ++j) halve_level(j, parallel_for);
+  sum_top(parallel_for);
+  for (int j = last() - 1; j >= 1; --j) blur_level(j, parallel_for);
+}
+
+void Pyramid::halve_picture(const RowSource& source, const ParallelFor& parallel_for) {
+  const Level &from = level(0), &to = level(1);
+  struct Own {
+    Ring ring;
+    Scratch scratch;
+  };
+  const auto make = [&] { return Own{Ring(from, planes_), Scratch(from.width)}; };
+  for_rows(to.y_begin, to.y_end, parallel_for, make, [&](int y, Own& own) {
+    fill(own.ring, from, source, 2 * y - 2, 2 * y + 2);
+    for (int p = 0; p < planes_; ++p) {
+      const float* rows[5];
+      for (int i = 0; i < 5; ++i) {
+        const int at = 2 * y - 2 + i;
+        rows[i] = at < 0 || at >= from.height ? own.ring.zeros() : own.ring.row(p, at);
+      }
+      halve_columns(rows, own.scratch.rows.row(0), from.width);
+      halve_row(own.scratch.rows.row(0), sharp(1).row(p, y), to.x_begin, to.x_end);
+      finish_row(sharp(1).row(p, y), to.width, to.x_begin, to.x_end, ladder_.sides);
+    }
+  });
+}
+
+void Pyramid::halve_level(int j, const ParallelFor& parallel_for) {
+  const Level &from = level(j - 1), &to = level(j);
+  const auto make = [&] { return Scratch(from.width); };
+  for_rows(to.y_begin, to.y_end, parallel_for, make, [&](int y, Scratch& scratch) {
+    for (int p = 0; p < planes_; ++p) {
+      const float* rows[5];
+      for (int i = 0; i < 5; ++i) rows[i] = sharp(j - 1).row(p, 2 * y - 2 + i);
+      halve_columns(rows, scratch.rows.row(0), from.width);
+      halve_row(scratch.rows.row(0), sharp(j).row(p, y), to.x_begin, to.x_end);
+      finish_row(sharp(j).row(p, y), to.width, to.x_begin, to.x_end, ladder_.sides);
+    }
+  });
+}
+
+void Pyramid::sum_top(const ParallelFor& parallel_for) {
+  const Level& top = level(last());
+  parallel_for(top.y_end - top.y_begin, [&](int i) {
+    const int y = top.y_begin + i;
+    for (int p = 0; p < planes_; ++p) {
+      std::vector<double> sums(static_cast<std::size_t>(top.x_end - top.x_begin));
+      for (int from = top.y_begin; from < top.y_end; ++from)
+        add_top_row(ladder_, sharp(last()).row(p, from), y - from, sums);
+      float* const out = blurred(last()).row(p, y);
+      std::transform(sums.begin(), sums.end(), out + top.x_begin,
+                     [](double x) { return static_cast<float>(x); });
+      finish_row(out, top.width, top.x_begin, top.x_end, ladder_.sides);
+    }
+  });
+}
+
+void Pyramid::blur_level(int j, const ParallelFor& parallel_for) {
+  const Level& at = level(j);
+  const auto make = [&] { return Scratch(at.width); };
+  for_rows(at.y_begin, at.y_end, parallel_for, make, [&](int y, Scratch& scratch) {
+    for (int p = 0; p < planes_; ++p) {
+      float* const out = blurred(j).row(p, y);
+      doubled_row(j, p, y, scratch, out);
+      std::vector<const float*> rows;
+      for (int d = -at.reach(); d <= at.reach(); ++d) rows.push_back(sharp(j).row(p, y + d));
+      add_rungs(at, rows.data(), at.x_begin, at.x_end, scratch, out);
+      finish_row(out, at.width, at.x_begin, at.x_end, ladder_.sides);
+    }
+  });
+}
+
+void Pyramid::doubled_row(int j, int plane, int y, Scratch& scratch, float* out) const {
+  const Planes& from = blurred(j + 1);
+  const bool odd = (y & 1) != 0;
+  const int k = y >> 1;
+  const float* const rows[3] = {from.row(plane, odd ? k : k - 1), from.row(plane, odd ? k + 1 : k),
+                                from.row(plane, k + 1)};
+  double_columns(rows, odd, scratch.rows.row(0), level(j + 1).width);
+  double_row(scratch.rows.row(0), out, level(j).x_begin, level(j).x_end);
+}
+
+}  // namespace scotopic::glare

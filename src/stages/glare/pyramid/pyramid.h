@@ -1,0 +1,88 @@
+// A symmetric pyramid with no negative weight, which convolves planes with the Gaussians of a ladder. Halving
+// a level, blurring what is left and doubling by the transpose of the halving: weights y -> x and x -> y are
+// one, so light is conserved, and sums of positive numbers need no more than float over any range.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "stages/glare/pyramid/ladder.h"
+#include "stages/glare/pyramid/rows.h"
+#include "stages/shared/parallel_for.h"
+
+namespace scotopic::glare {
+
+/// Rows of every plane of a level, margin included.
+class Planes {
+ public:
+  /// All 0.
+  Planes(const Level& level, int planes);
+  /// Row y of a plane; rows beyond the margin are 0.
+  float* row(int plane, int y) { return rows_.row(index(plane, y)); }
+  /// The same, to read.
+  const float* row(int plane, int y) const { return rows_.row(index(plane, y)); }
+
+  /// What the constructor allocates.
+  static std::size_t bytes(const Level& level, int planes);
+
+ private:
+  std::ptrdiff_t index(int plane, int y) const {
+    if (y < begin_ || y >= end_) return 0;
+    return 1 + static_cast<std::ptrdiff_t>(plane) * (end_ - begin_) + (y - begin_);
+  }
+  int begin_, end_;
+  Rows rows_;
+};
+
+/// Rows that one task works in.
+struct Scratch {
+  /// For levels up to `width` wide.
+  explicit Scratch(int width) : rows(width, most_rungs + 1) {}
+  Rows rows;
+};
+
+/// Levels 1 ... L of the planes of one picture: first what they hold, then what that is blurred to.
+class Pyramid {
+ public:
+  /// Fills row y of level 0, plane by plane, finished (finish_row).
+  using RowSource = std::function<void(int y, float* const* rows)>;
+
+  /// Keeps a reference to the ladder.
+  Pyramid(const Ladder& ladder, int planes);
+
+  /// Computes all levels but 0. Calls source from several threads, for the same row more than once.
+  void build(const RowSource& source, const ParallelFor& parallel_for);
+
+  /// out += nothing yet: row y of `plane` of level 0 as far as coarser levels say; samples 0 ... width - 1.
+  void coarse_row(int plane, int y, Scratch& scratch, float* out) const {
+    doubled_row(0, plane, y, scratch, out);
+  }
+
+  /// What the constructor allocates.
+  static std::size_t bytes(const Ladder& ladder, int planes);
+
+ private:
+  void halve_picture(const RowSource& source, const ParallelFor& parallel_for);
+  void halve_level(int j, const ParallelFor& parallel_for);
+  void sum_top(const ParallelFor& parallel_for);
+  void blur_level(int j, const ParallelFor& parallel_for);
+  void doubled_row(int j, int plane, int y, Scratch& scratch, float* out) const;
+
+  const Level& level(int j) const { return ladder_.levels[static_cast<std::size_t>(j)]; }
+  int last() const { return static_cast<int>(ladder_.levels.size()) - 1; }
+  /// Level j >= 1 before and after blurring.
+  Planes& sharp(int j) { return sharp_[static_cast<std::size_t>(j - 1)]; }
+  Planes& blurred(int j) { return blurred_[static_cast<std::size_t>(j - 1)]; }
+  const Planes& blurred(int j) const { return blurred_[static_cast<std::size_t>(j - 1)]; }
+
+  const Ladder& ladder_;
+  int planes_;
+  std::vector<Planes> sharp_, blurred_;
+};
+
+/// Adds the rungs of a level to out, begin <= x < end, from its rows around: rows[reach + d] is d rows below.
+void add_rungs(const Level& level, const float* const* rows, int begin, int end, Scratch& scratch,
+               float* out);
+
+}  // namespace scotopic::glare

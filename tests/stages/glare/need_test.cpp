@@ -1,0 +1,124 @@
+// Where glare is said not to be called for, computing it all the same changes nothing that is seen.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <limits>
+#include <random>
+
+#include "stages/glare/judge.h"
+
+namespace scotopic {
+namespace {
+
+using test::Picture;
+using test::Plane;
+
+constexpr std::array<double, 3> weights = {0.2126, 0.7152, 0.0722};
+
+double luminance(const Picture& p, std::size_t i) {
+  return weights[0] * double{p.planes[0].values[i]} + weights[1] * double{p.planes[1].values[i]} +
+         weights[2] * double{p.planes[2].values[i]};
+}
+
+GlareParameters parameters(int width, int height, double ppd) {
+  return {{}, test::square_grid(width, height, ppd), GlareRule::above, 1};
+}
+
+Picture scene(std::mt19937& random, int width, int height, double ground, double decades) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  Picture out(width, height);
+  for (Plane& plane : out.planes)
+    for (float& x : plane.values) x = static_cast<float>(ground * (0.2 + 0.8 * unit(random)));
+  const int lamps = 1 + static_cast<int>(6 * unit(random));
+  for (int i = 0; i < lamps; ++i) {
+    const int x = static_cast<int>(unit(random) * width), y = static_cast<int>(unit(random) * height);
+    const double level = 1 + std::pow(10, decades * unit(random) - 4);
+    for (Plane& plane : out.planes) plane(x, y) = static_cast<float>(level * (0.5 + 0.5 * unit(random)));
+  }
+  return out;
+}
+
+TEST(GlareNeed, bounds_the_rise_of_every_pixel_on_200_scenes) {
+  std::mt19937 random(4);
+  int skipped = 0, above = 0;
+  double nearest = 0, largest = 0;
+  for (int n = 0; n < 200; ++n) {
+    const int width = 40 + static_cast<int>(random() % 160), height = 40 + static_cast<int>(random() % 100);
+    const double ppd = 3 + static_cast<double>(random() % 60);
+    const Picture in = scene(random, width, height, n % 2 == 0 ? 0.9 : 0.05, n % 3 == 0 ? 5 : 3);
+    Picture out = in;
+    const GlareFilter filter(parameters(width, height, ppd));
+    const GlareNeed need = filter.need(out.view(), weights);
+    filter.apply(out.view());
+    above += need.above > 0;
+    skipped += !need.called_for && need.above > 0;
+    double rise = 0;
+    for (std::size_t i = 0; i < in.planes[0].values.size(); ++i) {
+      const double before = luminance(in, i), after = luminance(out, i);
+      rise = std::max(rise, (after - before) / (before + 0.001));
+      // What the display cannot show still cannot be shown.
+      const auto v = [i](const Picture& p) {
+        return std::max({p.planes[0].values[i], p.planes[1].values[i], p.planes[2].values[i]});
+      };
+      if (v(in) > 1) {
+        EXPECT_GE(v(out), 1 - 1e-6f) << n;
+      }
+    }
+    if (need.above == 0) {
+      EXPECT_EQ(rise, 0);
+      continue;
+    }
+    if (!need.called_for) {
+      EXPECT_LE(rise, need.veil) << "scene " << n << ": " << need.reason;
+      nearest = std::max(nearest, rise / need.veil);
+      largest = std::max(largest, rise);
+    }
+  }
+  std::printf(
+      "  %d of %d scenes with light above the threshold skipped; largest rise %.5f, %.2f of its bound\n",
+      skipped, above, largest, nearest);
+  EXPECT_GT(skipped, 20);
+  EXPECT_LT(skipped, above);
+  EXPECT_LE(largest, 0.01);
+}
+
+TEST(GlareNeed, says_how_many_pixels_and_why) {
+  Picture picture(100, 80, 0.5f);
+  const GlareFilter filter(parameters(100, 80, 20));
+  EXPECT_FALSE(filter.need(picture.view(), weights).called_for);
+  EXPECT_EQ(filter.need(picture.view(), weights).reason, "no pixel is above 1");
+  for (int x = 10; x < 17; ++x) picture.planes[2](x, 40) = 1000;
+  picture.planes[0](3, 3) = std::numeric_limits<float>::infinity();
+  const GlareNeed need = filter.need(picture.view(), weights);
+  EXPECT_TRUE(need.called_for);
+  EXPECT_EQ(need.above, 7);
+  EXPECT_GT(need.veil, 0.01);
+}
+
+TEST(GlareNeed, all_is_called_for_unless_the_picture_is_nearly_flat) {
+  GlareParameters p = parameters(64, 64, 20);
+  p.rule = GlareRule::all;
+  Picture picture(64, 64, 0.5f);
+  const GlareFilter filter(p);
+  EXPECT_FALSE(filter.need(picture.view(), weights).called_for);
+  picture.planes[1](3, 3) = 0.504f;
+  const GlareNeed slight = filter.need(picture.view(), weights);
+  EXPECT_FALSE(slight.called_for);
+  EXPECT_NEAR(slight.veil, filter.most_lost() * 0.008, 1e-4);
+  picture.planes[1](3, 3) = 0.6f;
+  EXPECT_TRUE(filter.need(picture.view(), weights).called_for);
+  EXPECT_LT(filter.most_lost(), 0.98);
+}
+
+TEST(GlareNeed, threads_do_not_show) {
+  std::mt19937 random(9);
+  Picture picture = scene(random, 300, 200, 0.9, 3);
+  const GlareFilter filter(parameters(300, 200, 30));
+  const GlareNeed one = filter.need(picture.view(), weights),
+                  five = filter.need(picture.view(), weights, test::threads(5));
+  EXPECT_EQ(one.veil, five.veil);
+  EXPECT_EQ(one.above, five.above);
+}
+
+}  // namespace
+}  // namespace scotopic
