@@ -1,6 +1,7 @@
 // Where glare is said not to be called for, computing it all the same changes nothing that is seen.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <limits>
 #include <random>

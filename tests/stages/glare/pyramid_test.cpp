@@ -1,6 +1,7 @@
 // The pyramid against the function integrated over pixels; symmetric, smooth, and no weight negative.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <stdexcept>
 
