@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "stages/display/night_display.h"
+#include "stages/noise/rod_noise.h"
 #include "stages/shared/stage_constants.h"
 
 namespace scotopic {
@@ -23,6 +24,10 @@ const T& first_number(const StageConstants<T>& k) {
 template <typename T>
 const T& first_number(const DisplayConstants<T>& k) {
   return k.scale;
+}
+template <typename T>
+const T& first_number(const RodNoiseConstants<T>& k) {
+  return k.weight.unit;
 }
 
 /// A constant is then an operand in memory, and takes no instruction of its own. (Too many for registers, they would be
