@@ -70,12 +70,14 @@ std::ptrdiff_t CountAbove(const PictureRow& row, float threshold, int width) {
   return static_cast<std::ptrdiff_t>(count);
 }
 
-bool ExcessRow(const Excess& excess, const PictureRow& row, float* const* out, int width) {
+bool ExcessRow(const Excess& excess, const PictureRow& row, float* const* out, std::uint8_t* lit, int width) {
   const D d;
   const V t = hn::Set(d, excess.threshold), zero = hn::Zero(d);
   const auto planes = static_cast<std::size_t>(excess.planes);
   Mask all_fine = hn::Eq(zero, zero);
+  V any = zero;
   for (int x = 0; x < width; x += lanes()) {
+    if (x % lit_step == 0) any = zero;
     const int some = width - x;
     const Colour c = load_rgb(row, x, some);
     Mask fine = operable(c);
@@ -90,9 +92,12 @@ bool ExcessRow(const Excess& excess, const PictureRow& row, float* const* out, i
       const V v = greatest(c);
       share = hn::IfThenElse(hn::Gt(v, t), hn::Div(hn::Sub(v, t), v), zero);
     }
-    for (std::size_t k = 0; k < planes; ++k)
-      hn::StoreU(hn::IfThenElseZero(fine, hn::Sub(hn::Mul(share, light[k]), hn::Set(d, excess.less[k]))), d,
-                 out[k] + x);
+    for (std::size_t k = 0; k < planes; ++k) {
+      const V e = hn::IfThenElseZero(fine, hn::Sub(hn::Mul(share, light[k]), hn::Set(d, excess.less[k])));
+      any = hn::Or(any, e);
+      hn::StoreU(e, d, out[k] + x);
+    }
+    lit[x / lit_step] = !hn::AllTrue(d, hn::Eq(any, zero));
     hn::StoreU(hn::IfThenElseZero(fine, hn::Set(d, 1.0f)), d, out[planes] + x);
   }
   return hn::AllTrue(d, all_fine);
@@ -129,8 +134,9 @@ HWY_EXPORT(ScatterRow);
 std::ptrdiff_t count_above(const PictureRow& row, float threshold, int width) {
   return HWY_DYNAMIC_DISPATCH(CountAbove)(row, threshold, width);
 }
-bool excess_row(const Excess& excess, const PictureRow& row, float* const* out, int width) {
-  return HWY_DYNAMIC_DISPATCH(ExcessRow)(excess, row, out, width);
+bool excess_row(const Excess& excess, const PictureRow& row, float* const* out, std::uint8_t* lit,
+                int width) {
+  return HWY_DYNAMIC_DISPATCH(ExcessRow)(excess, row, out, lit, width);
 }
 void scatter_row(const Excess& excess, const PictureRow& row, const float* const* e, const float* const* ke,
                  int width) {

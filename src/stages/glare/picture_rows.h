@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "stages/glare/pyramid/rows.h"
 
@@ -27,9 +28,12 @@ struct PictureRow {
 /// How many pixels are finite and have v > threshold. Pixels beyond 2^120 count as not finite, everywhere
 /// here.
 std::ptrdiff_t count_above(const PictureRow& row, float threshold, int width);
+/// Samples of a row are lit, or not, so many at a time.
+inline constexpr int lit_step = 64;
 /// out[k] = excess of plane k, 0 where not finite; out[planes] = 1 where finite, else 0. Samples 0 ... width
-/// - 1, and rubbish beyond. True where all are finite.
-bool excess_row(const Excess& excess, const PictureRow& row, float* const* out, int width);
+/// - 1, and rubbish beyond. lit[i] = whether any excess is not 0 from sample i lit_step on. True where all
+/// pixels are finite.
+bool excess_row(const Excess& excess, const PictureRow& row, float* const* out, std::uint8_t* lit, int width);
 /// light = (p - e) + e (1 - km) + ke, or p as it is where e and ke are both 0 or the pixel is not finite.
 /// e[planes] is the mask, ke[planes] the blurred mask km.
 void scatter_row(const Excess& excess, const PictureRow& row, const float* const* e, const float* const* ke,

@@ -25,10 +25,12 @@ void add_row(const Rows& rows, int planes, int width, Extremes& into) {
 
 /// Rows of excess, for one row of the picture.
 struct ExcessRows {
-  ExcessRows(const Plan& plan, int planes) : rows(plan.width(), planes + 1) {
+  ExcessRows(const Plan& plan, int planes)
+      : rows(plan.width(), planes + 1), lit(static_cast<std::size_t>(plan.width() / lit_step + 1)) {
     for (int k = 0; k <= planes; ++k) out[static_cast<std::size_t>(k)] = rows.row(k);
   }
   Rows rows;
+  std::vector<std::uint8_t> lit;
   std::array<float*, most_planes> out{};
 };
 
@@ -59,7 +61,7 @@ bool some_pixel_keeps_all(const Plan& plan, const GlarePicture& picture) {
   const Excess excess = excess_of(plan, picture);
   ExcessRows own(plan, excess.planes);
   for (int y = 0; y < plan.height(); ++y) {
-    excess_row(excess, row_of(picture, y), own.out.data(), plan.width());
+    excess_row(excess, row_of(picture, y), own.out.data(), own.lit.data(), plan.width());
     for (int x = 0; x < plan.width(); ++x) {
       const auto none = [x](const float* row) { return row[x] == 0; };
       if (own.out[static_cast<std::size_t>(excess.planes)][x] != 0 &&
@@ -91,7 +93,7 @@ Extremes extremes(const Plan& plan, const GlarePicture& picture, const ParallelF
   for_bands(plan.height(), rows_of_task, parallel_for, [&](int task, int begin, int end) {
     ExcessRows own(plan, excess.planes);
     for (int y = begin; y < end; ++y) {
-      excess_row(excess, row_of(picture, y), own.out.data(), plan.width());
+      excess_row(excess, row_of(picture, y), own.out.data(), own.lit.data(), plan.width());
       add_row(own.rows, excess.planes, plan.width(), parts[static_cast<std::size_t>(task)]);
     }
   });

@@ -37,18 +37,29 @@ struct Run::Window {
         end(band_end),
         next(band_begin),
         size(ring_size(run.level().reach())),
+        steps(static_cast<std::size_t>(run.steps())),
         ring(run.level().width, static_cast<std::ptrdiff_t>(size) * run.planes()),
+        ring_lit(static_cast<std::size_t>(size) * steps),
+        lit(steps),
         blurred(run.level().width, run.planes()),
         scratch(run.level().width) {}
   float* row(int plane, int y) { return ring.row(static_cast<std::ptrdiff_t>(plane) * size + y % size); }
   const float* row(int plane, int y) const {
     return ring.row(static_cast<std::ptrdiff_t>(plane) * size + y % size);
   }
+  std::uint8_t* row_lit(int y) { return ring_lit.data() + static_cast<std::size_t>(y % size) * steps; }
+  const std::uint8_t* row_lit(int y) const {
+    return ring_lit.data() + static_cast<std::size_t>(y % size) * steps;
+  }
 
   int begin, end;
   int next;  ///< the first row not yet in the ring
   int size;
-  Rows ring, blurred;
+  std::size_t steps;
+  Rows ring;
+  std::vector<std::uint8_t> ring_lit;
+  std::vector<std::uint8_t> lit;  ///< where the row in hand has a lit sample within reach
+  Rows blurred;
   Scratch scratch;
 };
 
@@ -58,6 +69,7 @@ Run::Run(const Plan& plan, const GlarePicture& picture, const Excess& excess)
       excess_(excess),
       pyramid_(plan.ladder, excess.planes + 1),
       sides_(plan.width(), rows_kept(plan.ladder, excess.planes + 1)),
+      sides_lit_(static_cast<std::size_t>(rows_kept(plan.ladder, 1)) * static_cast<std::size_t>(steps())),
       ones_(plan.width(), most_rungs + 1) {}
 
 std::size_t Run::bytes(const Plan& plan, int light, int threads) {
@@ -70,14 +82,19 @@ std::size_t Run::bytes(const Plan& plan, int light, int threads) {
 }
 
 void Run::apply(const ParallelFor& parallel_for) {
-  pyramid_.build([this](int y, float* const* rows) { excess_row_at(y, rows); }, parallel_for);
+  const auto source = [this](int y, float* const* rows) {
+    thread_local std::vector<std::uint8_t> lit;
+    lit.resize(static_cast<std::size_t>(steps()));
+    excess_row_at(y, rows, lit.data());
+  };
+  pyramid_.build(source, parallel_for);
   keep_sides(parallel_for);
   blur_ones();
   for_bands(level().height, band, parallel_for, [&](int, int begin, int end) { scatter_band(begin, end); });
 }
 
-void Run::excess_row_at(int y, float* const* out) {
-  if (!excess_row(excess_, row_of(picture_, y), out, level().width)) all_finite_ = false;
+void Run::excess_row_at(int y, float* const* out, std::uint8_t* lit) {
+  if (!excess_row(excess_, row_of(picture_, y), out, lit, level().width)) all_finite_ = false;
   for (int p = 0; p < planes(); ++p) finish_row(out[p], level().width, 0, level().width, plan_.ladder.sides);
 }
 
@@ -88,21 +105,49 @@ void Run::keep_sides(const ParallelFor& parallel_for) {
     for (int i = 0; i < 2 * reach; ++i) {
       const int y = (b + 1) * band - reach + i;
       if (y >= level().height) break;
+      const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(b) * 2 * reach + i;
       RowPointers rows{};
       for (int p = 0; p < planes(); ++p)
-        rows[static_cast<std::size_t>(p)] =
-            sides_.row(1 + (static_cast<std::ptrdiff_t>(b) * 2 * reach + i) * planes() + p);
-      excess_row_at(y, rows.data());
+        rows[static_cast<std::size_t>(p)] = sides_.row(1 + at * planes() + p);
+      excess_row_at(y, rows.data(), sides_lit_.data() + at * steps());
     }
   });
+}
+
+std::ptrdiff_t Run::kept(const Window& window, int y) const {
+  const int reach = level().reach(), border = y < window.begin ? window.begin : window.end;
+  return static_cast<std::ptrdiff_t>(border / band - 1) * 2 * reach + y - (border - reach);
 }
 
 const float* Run::row_at(const Window& window, int plane, int y) const {
   if (y < 0 || y >= level().height) return sides_.row(0);
   if (y >= window.begin && y < window.end) return window.row(plane, y);
-  const int reach = level().reach(), b = (y < window.begin ? window.begin : window.end) / band - 1;
-  const int i = y - ((b + 1) * band - reach);
-  return sides_.row(1 + (static_cast<std::ptrdiff_t>(b) * 2 * reach + i) * planes() + plane);
+  return sides_.row(1 + kept(window, y) * planes() + plane);
+}
+
+const std::uint8_t* Run::lit_at(const Window& window, int y) const {
+  if (y >= window.begin && y < window.end) return window.row_lit(y);
+  return sides_lit_.data() + kept(window, y) * steps();
+}
+
+// A rung reaches less than one step to either side: elsewhere it would add zeros.
+void Run::see_lit(Window& window, int y) const {
+  std::vector<std::uint8_t>& lit = window.lit;
+  std::fill(lit.begin(), lit.end(), std::uint8_t{0});
+  for (int j = std::max(0, y - level().reach()); j <= std::min(y + level().reach(), level().height - 1);
+       ++j) {
+    const std::uint8_t* const row = lit_at(window, j);
+    for (std::size_t i = 0; i < lit.size(); ++i) lit[i] |= row[i];
+  }
+  const bool meet = plan_.ladder.sides == GlareSides::meet;
+  const std::uint8_t first = lit.front(), last = lit.back();
+  std::uint8_t left = meet ? last : std::uint8_t{0};
+  if (meet && lit.size() > 1) left |= lit[lit.size() - 2];  // the last step may be narrower than the reach
+  for (std::size_t i = 0; i < lit.size(); ++i) {
+    const std::uint8_t own = lit[i], right = i + 1 < lit.size() ? lit[i + 1] : meet ? first : std::uint8_t{0};
+    lit[i] = own | left | right;
+    left = own;
+  }
 }
 
 // Where all pixels are finite the mask is a row of ones times a column of ones, and so is each rung of it.
@@ -116,7 +161,9 @@ void Run::blur_ones() {
     Level one = level();
     one.rungs = {level().rungs[r]};
     const float* const in[1] = {row};
-    blur_row_add(one, in, ones_.row(static_cast<std::ptrdiff_t>(r)), 0, width);
+    float* const out = ones_.row(static_cast<std::ptrdiff_t>(r));
+    std::fill_n(out, width, 0.0f);
+    blur_row_add(one, in, out, 0, width);
   }
 }
 
@@ -124,18 +171,27 @@ void Run::advance(Window& window, int to) {
   for (; window.next <= std::min(to, window.end - 1); ++window.next) {
     RowPointers rows{};
     for (int p = 0; p < planes(); ++p) rows[static_cast<std::size_t>(p)] = window.row(p, window.next);
-    excess_row_at(window.next, rows.data());
+    excess_row_at(window.next, rows.data(), window.row_lit(window.next));
   }
 }
 
-void Run::blur_row(Window& window, int plane, int y) const {
+void Run::blur_row(Window& window, int plane, int y, bool everywhere) const {
   const int reach = level().reach();
   std::array<const float*, 64> rows{};
   for (int d = -reach; d <= reach; ++d)
     rows[static_cast<std::size_t>(reach + d)] = row_at(window, plane, y + d);
   float* const out = window.blurred.row(plane);
   pyramid_.coarse_row(plane, y, window.scratch, out);
-  add_rungs(level(), rows.data(), 0, level().width, window.scratch, out);
+  for (std::size_t i = 0; i < window.lit.size();) {
+    const std::size_t begin = i;
+    while (i < window.lit.size() && (everywhere || window.lit[i] != 0)) ++i;
+    if (i == begin) {
+      ++i;
+      continue;
+    }
+    add_rungs(level(), rows.data(), static_cast<int>(begin) * lit_step,
+              std::min(static_cast<int>(i) * lit_step, level().width), window.scratch, out);
+  }
 }
 
 void Run::blur_mask_of_ones(Window& window, int y) const {
@@ -150,11 +206,12 @@ void Run::scatter_band(int begin, int end) {
   Window window(*this, begin, end);
   for (int y = begin; y < end; ++y) {
     advance(window, y + level().reach());
-    for (int p = 0; p < excess_.planes; ++p) blur_row(window, p, y);
+    see_lit(window, y);
+    for (int p = 0; p < excess_.planes; ++p) blur_row(window, p, y, false);
     if (all_finite_)
       blur_mask_of_ones(window, y);
     else
-      blur_row(window, mask(), y);
+      blur_row(window, mask(), y, true);
     std::array<const float*, most_planes> own{}, come{};
     for (int p = 0; p < planes(); ++p) {
       own[static_cast<std::size_t>(p)] = window.row(p, y);

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "stages/glare/plan.h"
@@ -26,13 +27,18 @@ class Run {
   struct Window;
   void keep_sides(const ParallelFor& parallel_for);
   void blur_ones();
-  void excess_row_at(int y, float* const* out);
+  void excess_row_at(int y, float* const* out, std::uint8_t* lit);
   const float* row_at(const Window& window, int plane, int y) const;
+  const std::uint8_t* lit_at(const Window& window, int y) const;
+  void see_lit(Window& window, int y) const;
   void advance(Window& window, int to);
-  void blur_row(Window& window, int plane, int y) const;
+  void blur_row(Window& window, int plane, int y, bool everywhere) const;
   void blur_mask_of_ones(Window& window, int y) const;
   void scatter_band(int begin, int end);
 
+  /// How far into sides_ row y is that was kept for the window; in rows of the picture.
+  std::ptrdiff_t kept(const Window& window, int y) const;
+  int steps() const { return (plan_.width() + lit_step - 1) / lit_step; }
   int mask() const { return excess_.planes; }
   int planes() const { return excess_.planes + 1; }
   const Level& level() const { return plan_.ladder.levels.front(); }
@@ -43,7 +49,8 @@ class Run {
   std::atomic<bool> all_finite_{true};
   Pyramid pyramid_;
   Rows sides_;  ///< rows around the borders of bands, as others write in place
-  Rows ones_;   ///< rung by rung, a row of ones blurred
+  std::vector<std::uint8_t> sides_lit_;
+  Rows ones_;  ///< rung by rung, a row of ones blurred
 };
 
 }  // namespace scotopic::glare

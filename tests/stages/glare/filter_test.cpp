@@ -243,6 +243,29 @@ TEST(GlareFilter, instruction_sets_do_not_show) {
   }
 }
 
+// Where nothing near is lit the filter leaves rungs out; the bare pyramid does not.
+TEST(GlareFilter, what_is_left_out_would_have_been_zero) {
+  for (const GlareSides sides : {GlareSides::end, GlareSides::meet})
+    for (const double ppd_x : {8.0, 16.0}) {
+      GlareParameters p = parameters(320, 150);
+      p.grid = {320, 150, ppd_x, 8, sides, 1};
+      Picture in(320, 150);
+      const std::pair<int, int> lamps[] = {{0, 0},     {319, 2},  {63, 127}, {64, 40},  {126, 128},
+                                           {192, 149}, {255, 75}, {256, 90}, {257, 104}};
+      for (Plane& plane : in.planes)
+        for (const auto& [x, y] : lamps) plane(x, y) = 1000;
+      Plane excess = in.planes[0];
+      for (float& x : excess.values) x = std::max(0.0f, x - 1);
+      const GlareFunction function({});
+      const Plane come = test::convolved(function, p.grid, excess);
+      const Picture out = filtered(p, in);
+      for (std::size_t i = 0; i < come.values.size(); ++i)
+        if (excess.values[i] == 0) {
+          EXPECT_EQ(out.planes[1].values[i], come.values[i]) << i % 320 << " " << i / 320;
+        }
+    }
+}
+
 TEST(GlareFilter, rows_may_have_gaps_that_are_left_alone) {
   const Picture in = night(61, 40, 9);
   Picture wide(70, 40, 7777);

@@ -72,7 +72,10 @@ void add_rungs(const Level& level, const float* const* rows, int begin, int end,
                float* out) {
   std::array<float*, most_rungs> columns{};
   for (std::size_t r = 0; r < most_rungs; ++r) columns[r] = scratch.rows.row(static_cast<std::ptrdiff_t>(r));
-  blur_columns(level, rows, columns.data(), level.width);
+  // The longest taps along a row are shorter than `before`.
+  const int from = (begin - 1) / column_step * column_step - before, step = column_step;
+  const int to = from + (end + before - from + step - 1) / step * step;
+  blur_columns(level, rows, columns.data(), from, to);
   blur_row_add(level, columns.data(), out, begin, end);
 }
 

@@ -6,7 +6,13 @@
 // After foreach_target.h
 #include <hwy/highway.h>
 
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
 #include <algorithm>
+#include <cstdlib>
+#include <new>
 
 HWY_BEFORE_NAMESPACE();
 namespace scotopic::glare::HWY_NAMESPACE {
@@ -97,7 +103,7 @@ HWY_INLINE void add_column_pairs(const float* const* rows, int reach, const floa
 }
 
 template <int rungs>
-void blur_columns_of(const Level& level, const float* const* rows, float* const* out, int width) {
+void blur_columns_of(const Level& level, const float* const* rows, float* const* out, int begin, int end) {
   const D d;
   const float* taps[most_rungs] = {};
   int reaches[most_rungs] = {};
@@ -105,8 +111,8 @@ void blur_columns_of(const Level& level, const float* const* rows, float* const*
     taps[r] = level.rungs[r].y.data();
     reaches[r] = static_cast<int>(level.rungs[r].y.size()) - 1;
   }
-  const int reach = reaches[0], end = static_cast<int>(row_floats(width)) - before;
-  for (int x = -before; x < end; x += wide * lanes()) {
+  const int reach = reaches[0];
+  for (int x = begin; x < end; x += wide * lanes()) {
     V sums[most_rungs][wide];
     for (int r = 0; r < rungs; ++r)
       for (int i = 0; i < wide; ++i)
@@ -146,14 +152,14 @@ HWY_INLINE void blur_row_add_at(const Level& level, const float* const* in, floa
 
 }  // namespace
 
-void BlurColumns(const Level& level, const float* const* rows, float* const* out, int width) {
+void BlurColumns(const Level& level, const float* const* rows, float* const* out, int begin, int end) {
   switch (level.rungs.size()) {
     case 1:
-      return blur_columns_of<1>(level, rows, out, width);
+      return blur_columns_of<1>(level, rows, out, begin, end);
     case 4:
-      return blur_columns_of<4>(level, rows, out, width);
+      return blur_columns_of<4>(level, rows, out, begin, end);
     default:
-      return blur_columns_of<5>(level, rows, out, width);
+      return blur_columns_of<5>(level, rows, out, begin, end);
   }
 }
 
@@ -184,11 +190,29 @@ HWY_EXPORT(BlurColumns);
 HWY_EXPORT(BlurRowAdd);
 HWY_EXPORT(AddScaled);
 
+namespace {
+
+constexpr std::size_t huge_page = std::size_t{1} << 21;
+
+/// Pages of 2 MiB where there is room for some: faults on small ones would take a fifth of the time.
+float* allocated(std::size_t bytes) {
+  const std::size_t unit = bytes >= 2 * huge_page ? huge_page : 64;
+  void* const memory = std::aligned_alloc(unit, (bytes + unit - 1) / unit * unit);
+  if (memory == nullptr) throw std::bad_alloc();
+#ifdef MADV_HUGEPAGE
+  if (unit == huge_page)
+    madvise(memory, (bytes + unit - 1) / unit * unit, MADV_HUGEPAGE);  // a hint: may fail
+#endif
+  return static_cast<float*>(memory);
+}
+
+}  // namespace
+
+void Rows::Free::operator()(float* floats) const { std::free(floats); }
+
 Rows::Rows(int width, std::ptrdiff_t count) : stride_(row_floats(width)) {
-  const auto floats = static_cast<std::size_t>(stride_ * count);
-  floats_ = hwy::AllocateAligned<float>(floats);
-  if (!floats_) throw std::bad_alloc();
-  std::fill_n(floats_.get(), floats, 0.0f);
+  floats_.reset(allocated(static_cast<std::size_t>(stride_ * count) * sizeof(float)));
+  std::fill_n(floats_.get(), stride_, 0.0f);
 }
 
 void finish_row(float* row, int width, int begin, int end, GlareSides sides) {
@@ -214,8 +238,8 @@ void double_columns(const float* const (&rows)[3], bool odd, float* out, int wid
 void double_row(const float* in, float* out, int begin, int end) {
   HWY_DYNAMIC_DISPATCH(DoubleRow)(in, out, begin, end);
 }
-void blur_columns(const Level& level, const float* const* rows, float* const* out, int width) {
-  HWY_DYNAMIC_DISPATCH(BlurColumns)(level, rows, out, width);
+void blur_columns(const Level& level, const float* const* rows, float* const* out, int begin, int end) {
+  HWY_DYNAMIC_DISPATCH(BlurColumns)(level, rows, out, begin, end);
 }
 void blur_row_add(const Level& level, const float* const* in, float* out, int begin, int end) {
   HWY_DYNAMIC_DISPATCH(BlurRowAdd)(level, in, out, begin, end);

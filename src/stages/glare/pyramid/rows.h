@@ -2,10 +2,9 @@
 // instruction set.
 #pragma once
 
-#include <hwy/aligned_allocator.h>
-
 #include <array>
 #include <cstddef>
+#include <memory>
 
 #include "stages/glare/pyramid/ladder.h"
 
@@ -24,7 +23,7 @@ inline constexpr int after = 96;
 /// Floats from row to row of a level so wide.
 constexpr std::ptrdiff_t row_floats(int width) { return (before + width + after + 31) / 32 * 32; }
 
-/// Memory for rows, all 0 at first.
+/// Memory for rows. The first is 0, the others hold anything.
 class Rows {
  public:
   Rows() = default;
@@ -38,7 +37,10 @@ class Rows {
   std::ptrdiff_t stride() const { return stride_; }
 
  private:
-  hwy::AlignedFreeUniquePtr<float[]> floats_;
+  struct Free {
+    void operator()(float* floats) const;
+  };
+  std::unique_ptr<float[], Free> floats_;
   std::ptrdiff_t stride_ = 0;
 };
 
@@ -55,8 +57,11 @@ void double_columns(const float* const (&rows)[3], bool odd, float* out, int wid
 /// The same along a row, to out[begin ... end-1]; writes up to 33 floats more on either side.
 void double_row(const float* in, float* out, int begin, int end);
 
-/// out[r] = rung r of `level` down the columns; rows[reach + d] is d rows below, whole rows of `width`.
-void blur_columns(const Level& level, const float* const* rows, float* const* out, int width);
+/// Columns are blurred in steps of so many samples.
+inline constexpr int column_step = 32;
+/// out[r] = rung r of `level` down the columns; rows[reach + d] is d rows below. Samples begin ... end - 1,
+/// both multiples of column_step from -before on.
+void blur_columns(const Level& level, const float* const* rows, float* const* out, int begin, int end);
 /// out[x] += sum over rungs r of their blur along the row in[r], begin <= x < end; writes up to 15 floats
 /// more.
 void blur_row_add(const Level& level, const float* const* in, float* out, int begin, int end);
