@@ -35,7 +35,8 @@ void GlareFilter::apply(const GlarePicture& picture, const ParallelFor& parallel
   if (p.grid.strength == 0) return;
   if (p.rule == GlareRule::above && count_above(*plan_, picture, parallel_for) == 0) return;
   glare::Excess excess = excess_of(*plan_, picture);
-  if (!glare::some_pixel_keeps_all(*plan_, picture)) {
+  // Found at once in a night; a picture that scatters whole has no such pixel as a rule.
+  if (p.rule == GlareRule::all || !glare::some_pixel_keeps_all(*plan_, picture)) {
     const glare::Extremes found = extremes(*plan_, picture, parallel_for);
     if (found.flat()) return;
     for (std::size_t k = 0; k < picture.light.size(); ++k) excess.less[k] = found.constant(k);

@@ -18,44 +18,89 @@ constexpr double dark = 1e-3;          // of the threshold: what the display sho
 constexpr double ladder_error = 1.03;  // the ladder's weights over those of the function, at most
 constexpr std::size_t most_pairs = std::size_t{1} << 22;
 
-/// Excess luminance of blocks, and the least luminance in each.
-struct Blocks {
-  Blocks(int width, int height)
-      : columns((width + side - 1) / side),
-        rows((height + side - 1) / side),
-        excess(size()),
-        least(size(), std::numeric_limits<double>::infinity()) {}
-  std::size_t size() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+using Weights = std::array<double, 3>;
+
+/// A picture in blocks: the excess luminance of each, and the least luminance in it.
+class Blocks {
+ public:
+  Blocks(const Plan& plan, const GlarePicture& picture, const Weights& luminance,
+         const ParallelFor& parallel_for);
+
+  std::size_t size() const { return excess_.size(); }
+  double excess(int x, int y) const { return excess_[at(x, y)]; }
+  /// Infinity where nothing is finite. Found when first asked for: one thread for each row of blocks.
+  double least(int x, int y);
+
+  const int columns, rows;
+
+ private:
   std::size_t at(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x);
   }
-  int columns, rows;
-  std::vector<double> excess, least;
+  template <typename Visit>
+  void visit(int x, int y, Visit visit) const;
+  bool lit(int x, int y) const;
+  double excess_of(int x, int y) const;
+
+  const Plan& plan_;
+  const GlarePicture& picture_;
+  const Weights weights_;
+  std::vector<double> excess_, least_;
 };
 
 bool operable(double x) { return std::abs(x) <= 0x1p120; }
 
-void add_pixel(const Plan& plan, const std::array<double, 3>& weights, const std::array<double, 3>& rgb,
-               Blocks& blocks, std::size_t at) {
-  if (!(operable(rgb[0]) && operable(rgb[1]) && operable(rgb[2]))) return;
-  const double luminance = std::max(0.0, weights[0] * rgb[0] + weights[1] * rgb[1] + weights[2] * rgb[2]);
-  const double v = std::max({rgb[0], rgb[1], rgb[2]}), t = static_cast<double>(plan.threshold);
-  blocks.least[at] = std::min(blocks.least[at], luminance);
-  if (v > t) blocks.excess[at] += luminance * ((v - t) / v);
+int blocks_along(int pixels) { return (pixels + side - 1) / side; }
+
+Blocks::Blocks(const Plan& plan, const GlarePicture& picture, const Weights& luminance,
+               const ParallelFor& parallel_for)
+    : columns(blocks_along(plan.width())),
+      rows(blocks_along(plan.height())),
+      plan_(plan),
+      picture_(picture),
+      weights_(luminance) {
+  excess_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  least_.resize(excess_.size(), -1);
+  parallel_for(rows, [&](int y) {
+    for (int x = 0; x < columns; ++x) excess_[at(x, y)] = lit(x, y) ? excess_of(x, y) : 0;
+  });
 }
 
-Blocks blocks_of(const Plan& plan, const GlarePicture& picture, const std::array<double, 3>& weights,
-                 const ParallelFor& parallel_for) {
-  Blocks blocks(plan.width(), plan.height());
-  for_bands(plan.height(), side, parallel_for, [&](int band, int begin, int end) {
-    for (int y = begin; y < end; ++y) {
-      const PictureRow row = row_of(picture, y);
-      for (int x = 0; x < plan.width(); ++x)
-        add_pixel(plan, weights, {double{row.rgb[0][x]}, double{row.rgb[1][x]}, double{row.rgb[2][x]}},
-                  blocks, blocks.at(x / side, band));
+/// visit(luminance, greatest component) of each finite pixel of a block.
+template <typename Visit>
+void Blocks::visit(int x, int y, Visit visit) const {
+  for (int j = y * side; j < std::min((y + 1) * side, plan_.height()); ++j) {
+    const PictureRow row = row_of(picture_, j);
+    for (int i = x * side; i < std::min((x + 1) * side, plan_.width()); ++i) {
+      const double r = double{row.rgb[0][i]}, g = double{row.rgb[1][i]}, b = double{row.rgb[2][i]};
+      if (!(operable(r) && operable(g) && operable(b))) continue;
+      visit(std::max(0.0, weights_[0] * r + weights_[1] * g + weights_[2] * b), std::max({r, g, b}));
     }
-  });
-  return blocks;
+  }
+}
+
+bool Blocks::lit(int x, int y) const {
+  for (int j = y * side; j < std::min((y + 1) * side, plan_.height()); ++j) {
+    PictureRow row = row_of(picture_, j);
+    for (const float*& plane : row.rgb) plane += x * side;
+    if (count_above(row, plan_.threshold, std::min(side, plan_.width() - x * side)) > 0) return true;
+  }
+  return false;
+}
+
+double Blocks::excess_of(int x, int y) const {
+  double sum = 0;
+  const double t = double{plan_.threshold};
+  visit(x, y, [&](double luminance, double v) { sum += v > t ? luminance * ((v - t) / v) : 0; });
+  return sum;
+}
+
+double Blocks::least(int x, int y) {
+  double& least = least_[at(x, y)];
+  if (least >= 0) return least;
+  least = std::numeric_limits<double>::infinity();
+  visit(x, y, [&](double luminance, double) { least = std::min(least, luminance); });
+  return least;
 }
 
 /// A square of `blocks` x `blocks` blocks with excess.
@@ -70,7 +115,7 @@ std::vector<Source> sources_of(const Blocks& blocks, int group) {
     for (int x = 0; x < blocks.columns; x += group) {
       double sum = 0;
       for (int j = y; j < std::min(y + group, blocks.rows); ++j)
-        for (int i = x; i < std::min(x + group, blocks.columns); ++i) sum += blocks.excess[blocks.at(i, j)];
+        for (int i = x; i < std::min(x + group, blocks.columns); ++i) sum += blocks.excess(i, j);
       if (sum > 0) out.push_back({x, y, sum});
     }
   return out;
@@ -130,24 +175,28 @@ Bound::Bound(const Plan& plan, const Blocks& blocks)
     }
 }
 
-double relative(const Plan& plan, const Blocks& blocks, std::size_t at, double veil) {
-  if (!(blocks.least[at] < std::numeric_limits<double>::infinity())) return 0;
-  return veil / (blocks.least[at] + dark * static_cast<double>(plan.threshold));
+/// The veil in block (x, y) over what is under it.
+double relative(const Plan& plan, Blocks& blocks, int x, int y, double veil) {
+  const double least = blocks.least(x, y);
+  return std::isinf(least) ? 0 : veil / (least + dark * double{plan.threshold});
 }
 
-/// What blocks with excess do to themselves and their neighbours: a lower limit of the bound, found at once.
-double veil_nearby(const Plan& plan, const Blocks& blocks, const Bound& bound) {
+/// What blocks with excess do to themselves and their neighbours, up to the first that is enough: a lower
+/// limit of the bound, found at once.
+double veil_nearby(const Plan& plan, Blocks& blocks, const Bound& bound) {
   double greatest = 0;
   for (const Source& source : sources_of(blocks, 1))
     for (int y = std::max(0, source.y - 1); y <= std::min(source.y + 1, blocks.rows - 1); ++y)
-      for (int x = std::max(0, source.x - 1); x <= std::min(source.x + 1, blocks.columns - 1); ++x)
-        greatest = std::max(greatest,
-                            relative(plan, blocks, blocks.at(x, y), source.excess * bound(source, 1, x, y)));
+      for (int x = std::max(0, source.x - 1); x <= std::min(source.x + 1, blocks.columns - 1); ++x) {
+        const double veil = source.excess * bound(source, 1, x, y);
+        greatest = std::max(greatest, relative(plan, blocks, x, y, veil));
+        if (greatest > unseen) return greatest;
+      }
   return greatest;
 }
 
 /// The largest bound of all blocks. Sources are merged where pairs would be many: the bound stays one.
-double veil_everywhere(const Plan& plan, const Blocks& blocks, const Bound& bound,
+double veil_everywhere(const Plan& plan, Blocks& blocks, const Bound& bound,
                        const ParallelFor& parallel_for) {
   int group = 1;
   std::vector<Source> sources = sources_of(blocks, group);
@@ -159,7 +208,7 @@ double veil_everywhere(const Plan& plan, const Blocks& blocks, const Bound& boun
       double veil = 0;
       for (const Source& source : sources) veil += source.excess * bound(source, group, x, y);
       double& most = greatest[static_cast<std::size_t>(y)];
-      most = std::max(most, relative(plan, blocks, blocks.at(x, y), veil));
+      most = std::max(most, relative(plan, blocks, x, y, veil));
     }
   });
   return *std::max_element(greatest.begin(), greatest.end());
@@ -179,7 +228,7 @@ GlareNeed need_of_excess(const Plan& plan, const GlarePicture& picture,
     need.reason = worded("no pixel is above %.4g", plan.parameters.threshold);
     return need;
   }
-  const Blocks blocks = blocks_of(plan, picture, luminance, parallel_for);
+  Blocks blocks(plan, picture, luminance, parallel_for);
   const Bound bound(plan, blocks);
   need.veil = veil_nearby(plan, blocks, bound);
   if (need.veil <= unseen) need.veil = veil_everywhere(plan, blocks, bound, parallel_for);

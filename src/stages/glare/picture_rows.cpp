@@ -7,6 +7,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <limits>
 
 HWY_BEFORE_NAMESPACE();
 namespace scotopic::glare::HWY_NAMESPACE {
@@ -103,6 +104,20 @@ bool ExcessRow(const Excess& excess, const PictureRow& row, float* const* out, s
   return hn::AllTrue(d, all_fine);
 }
 
+std::pair<float, float> ExtremesOfRow(const float* row, const float* mask, int width) {
+  const D d;
+  const float infinity = std::numeric_limits<float>::infinity();
+  V least = hn::Set(d, infinity), greatest = hn::Set(d, -infinity);
+  for (int x = 0; x < width; x += lanes()) {
+    const V v = hn::Load(d, row + x);
+    Mask counted = hn::Ne(hn::Load(d, mask + x), hn::Zero(d));
+    if (width - x < lanes()) counted = hn::And(counted, hn::FirstN(d, static_cast<std::size_t>(width - x)));
+    least = hn::IfThenElse(counted, hn::Min(least, v), least);
+    greatest = hn::IfThenElse(counted, hn::Max(greatest, v), greatest);
+  }
+  return {hn::GetLane(hn::MinOfLanes(d, least)), hn::GetLane(hn::MaxOfLanes(d, greatest))};
+}
+
 void ScatterRow(const Excess& excess, const PictureRow& row, const float* const* e, const float* const* ke,
                 int width) {
   const D d;
@@ -129,6 +144,7 @@ HWY_AFTER_NAMESPACE();
 namespace scotopic::glare {
 HWY_EXPORT(CountAbove);
 HWY_EXPORT(ExcessRow);
+HWY_EXPORT(ExtremesOfRow);
 HWY_EXPORT(ScatterRow);
 
 std::ptrdiff_t count_above(const PictureRow& row, float threshold, int width) {
@@ -137,6 +153,9 @@ std::ptrdiff_t count_above(const PictureRow& row, float threshold, int width) {
 bool excess_row(const Excess& excess, const PictureRow& row, float* const* out, std::uint8_t* lit,
                 int width) {
   return HWY_DYNAMIC_DISPATCH(ExcessRow)(excess, row, out, lit, width);
+}
+std::pair<float, float> extremes_of_row(const float* row, const float* mask, int width) {
+  return HWY_DYNAMIC_DISPATCH(ExtremesOfRow)(row, mask, width);
 }
 void scatter_row(const Excess& excess, const PictureRow& row, const float* const* e, const float* const* ke,
                  int width) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "stages/glare/pyramid/rows.h"
 
@@ -34,6 +35,9 @@ inline constexpr int lit_step = 64;
 /// - 1, and rubbish beyond. lit[i] = whether any excess is not 0 from sample i lit_step on. True where all
 /// pixels are finite.
 bool excess_row(const Excess& excess, const PictureRow& row, float* const* out, std::uint8_t* lit, int width);
+/// Least and greatest of samples 0 ... width - 1 of a row whose mask is not 0; of none: infinity and its
+/// negative.
+std::pair<float, float> extremes_of_row(const float* row, const float* mask, int width);
 /// light = (p - e) + e (1 - km) + ke, or p as it is where e and ke are both 0 or the pixel is not finite.
 /// e[planes] is the mask, ke[planes] the blurred mask km.
 void scatter_row(const Excess& excess, const PictureRow& row, const float* const* e, const float* const* ke,

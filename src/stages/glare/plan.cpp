@@ -15,11 +15,9 @@ constexpr int rows_of_task = 64;
 int tasks_of(int height) { return (height + rows_of_task - 1) / rows_of_task; }
 
 void add_row(const Rows& rows, int planes, int width, Extremes& into) {
-  const float* const mask = rows.row(planes);
   for (int k = 0; k < planes; ++k) {
-    const float* const row = rows.row(k);
-    for (int x = 0; x < width; ++x)
-      if (mask[x] != 0) into.add(static_cast<std::size_t>(k), row[x], row[x]);
+    const auto [least, greatest] = extremes_of_row(rows.row(k), rows.row(planes), width);
+    into.add(static_cast<std::size_t>(k), least, greatest);
   }
 }
 
