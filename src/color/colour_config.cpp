@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <cstdlib>
 #include <mutex>
 #include <new>
@@ -14,6 +15,7 @@
 #include "base/names.h"
 
 namespace OCIO = OCIO_NAMESPACE;
+namespace fs = std::filesystem;
 
 namespace scotopic {
 namespace {
@@ -117,6 +119,30 @@ ColourConfig ColourConfig::in_force(const std::string& file, const Limits& limit
   if (!file.empty()) return from_file(file, limits);
   const char* environment = std::getenv("OCIO");
   return environment && *environment ? from_file(environment, limits) : own();
+}
+
+namespace {
+
+/// Beside an installed program, where packages put it, beside a build folder; empty: nowhere.
+std::string shipped_config() {
+  std::error_code none;
+  const fs::path program = fs::read_symlink("/proc/self/exe", none).parent_path();
+  for (const fs::path& file : {program / "../share/scotopic/ocio_config/config.ocio",
+                               fs::path(SCOTOPIC_SHARE_FOLDER "/ocio_config/config.ocio"),
+                               program / "../../../../ocio_config/config.ocio"})
+    if (fs::is_regular_file(file, none)) return file.lexically_normal().string();
+  return "";
+}
+
+}  // namespace
+
+ColourConfig ColourConfig::holding(const std::string& view) const {
+  if (!file_.empty()) return *this;
+  for (const std::string& display : displays())
+    for (const std::string& known : views(display))
+      if (view == known || view == display + "/" + known) return *this;
+  const std::string shipped = shipped_config();
+  return shipped.empty() ? *this : from_file(shipped, limits_);
 }
 
 void ColourConfig::fail(const std::string& what) const { throw Error(ExitCode::config, file_, what); }

@@ -66,6 +66,9 @@ class ColourConfig {
   static ColourConfig in_force(const std::string& file, const Limits& limits = {});
   /// The project's own config.
   static ColourConfig own();
+  /// This config; or, where it is the project's own and `view` is none of it, the one that is shipped with all looks and
+  /// views - the same spaces -, where that is found beside the program or where it was installed.
+  ColourConfig holding(const std::string& view) const;
   /// Read from a file.
   static ColourConfig from_file(const std::string& file, const Limits& limits = {});
 

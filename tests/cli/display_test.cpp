@@ -2,7 +2,9 @@
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -105,6 +107,17 @@ TEST_F(DisplayOutput, detail_needs_pixels_per_degree_assumes_them_on_a_display_a
   EXPECT_NEAR(applied("b.png", {"--projection", "latlong"}).at("effects").at("acuity").at("number").get<double>(),
               150.0 / 360, 1e-9);
   EXPECT_EQ(run("c.exr", {}).exit_code, 0);
+}
+
+TEST_F(DisplayOutput, a_night_view_of_the_shipped_config_is_known_anywhere_and_looks_as_the_display_stage) {
+  applied("view.png", {"--display", "Night 0.1 nit (street lighting)", "--effects", "none", "-d", "uint8"});
+  applied("stage.png", {"--effects", "shift,luminance,chroma", "-d", "uint8"});
+  const std::vector<std::uint8_t> view = pixels_of(path("view.png")), stage = pixels_of(path("stage.png"));
+  ASSERT_EQ(view.size(), stage.size());
+  ASSERT_FALSE(view.empty());
+  int worst = 0;
+  for (std::size_t i = 0; i < view.size(); ++i) worst = std::max(worst, std::abs(int{view[i]} - int{stage[i]}));
+  EXPECT_LE(worst, 3) << "codes of 255";
 }
 
 TEST_F(DisplayOutput, safko_s_scale_is_used_and_stated) {

@@ -152,6 +152,7 @@ ApplyJob::ApplyJob(const ApplyOptions& o, const Console& console)
       display_(understand(o.display, asked_)),
       settings_((understand(o.icc, asked_), o.scene), o.common.threads) {
   settings_.request = asked_;
+  if (asked_.view) settings_.config = settings_.config.holding(*asked_.view);
   check_view(asked_, settings_.config, console);
   if (const std::string idle = without_effect(o.scene.appearance, settings_.choice.parameters); !idle.empty())
     console.note("without effect under --model safko2019: " + idle);
