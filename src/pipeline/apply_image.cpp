@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <deque>
 #include <mutex>
 #include <thread>
 
 #include "pipeline/acuity_rows.h"
+#include "pipeline/frame_light.h"
 #include "io/copy_pixels.h"
 #include "pipeline/non_finite.h"
 #include "io/row_bands.h"
@@ -24,12 +26,14 @@ const RowOperator nothing_shown;
 class PictureRun {
  public:
   PictureRun(const PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-             const RowOperator& apply, const OutputPicture& out, const RowOperator& show = nothing_shown)
+             const RowOperator& apply, const OutputPicture& out, const RowOperator& show = nothing_shown,
+             const FrameLight* frame = nullptr)
       : light_(*layout.light_of(out.source)),
         source_picture_(source.pictures()[out.source]),
         out_(out),
         apply_(apply),
         show_(show),
+        frame_(frame),
         reader_(light_.channels, config, light_.space) {
     writer_.from_working = config.from_working(layout.output_space);
     writer_.gain = static_cast<float>(std::exp2(layout.exposure));
@@ -43,7 +47,7 @@ class PictureRun {
   void run(const Band& in, Band& out, bool interleaved) const {
     allocate(in, out, interleaved);
     // Receptors' signals have no columns of their own to take pieces of.
-    if (reader_.receptors())
+    if (reader_.receptors() || frame_)
       return each_row(in, [&](int row, LightRow& light) { run_piece(in, row, light, out); });
     const std::vector<Band> from = pieces(in), to = pieces(out);
     parallel_rows(in.rows, 8, [&](int first, int last) {
@@ -146,7 +150,7 @@ class PictureRun {
   }
 
   /// Nothing is called for, and nothing else changes values: the file's own bytes go through.
-  bool copies() const { return !apply_ && !show_ && writer_.keep_untouched && !reader_.receptors(); }
+  bool copies() const { return !apply_ && !show_ && !frame_ && writer_.keep_untouched && !reader_.receptors(); }
 
   void copy_row(const Band& in, int row, LightRow& room, const Band& out) const {
     bool finite = true;
@@ -164,9 +168,27 @@ class PictureRun {
   void see_row(const Band& in, int row, LightRow& light) const {
     reader_.read(in, row, light);
     const PixelRows pixels = light.pixels(reader_.receptors());
-    if (apply_) return apply_(pixels, light.touched.data());
     std::fill(light.touched.begin(), light.touched.end(), std::uint8_t{0});
+    if (frame_) take_frame(in, row, light);
+    if (apply_) return apply_over(pixels, light);
     unseen_non_finite_ += count_non_finite(pixels);
+  }
+
+  /// Light of the whole picture's stages; pixels they changed count as touched.
+  void take_frame(const Band& in, int row, LightRow& light) const {
+    LightRow before = light;
+    frame_->get_row(in.y0 - source_picture_.data.y0 + row, light);
+    for (std::size_t i = 0; i < light.r.size(); ++i)
+      light.touched[i] = std::memcmp(&before.r[i], &light.r[i], sizeof(float)) != 0 ||
+                         std::memcmp(&before.g[i], &light.g[i], sizeof(float)) != 0 ||
+                         std::memcmp(&before.b[i], &light.b[i], sizeof(float)) != 0;
+  }
+
+  void apply_over(const PixelRows& pixels, LightRow& light) const {
+    if (!frame_) return apply_(pixels, light.touched.data());
+    std::vector<std::uint8_t> before = light.touched;
+    apply_(pixels, light.touched.data());
+    for (std::size_t i = 0; i < before.size(); ++i) light.touched[i] |= before[i];
   }
 
   void write_row(const Band& in, int row, LightRow& light, const Band& out) const {
@@ -222,6 +244,7 @@ class PictureRun {
   const OutputPicture& out_;
   const RowOperator& apply_;
   const RowOperator& show_;
+  const FrameLight* frame_;
   LightReader reader_;
   LightWriter writer_;
   std::vector<std::size_t> others_;  // channel of the source for each output channel after R, G, B
@@ -340,7 +363,7 @@ LuminanceHistogram measure_base(PixelSource& source, const ImageLayout& layout, 
 
 std::uint64_t apply_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
                           const RowOperator& apply, OutputFile& file, const Progress& progress,
-                          const SpatialFilters& filters, const RowOperator& show) {
+                          const SpatialFilters& filters, const RowOperator& show, const FrameLights* frames) {
   const std::unique_ptr<PixelSink> sink = open_sink(layout.format, file, source, layout.outputs);
   const std::int64_t total = rows_to_write(layout);
   std::int64_t done = 0;
@@ -352,7 +375,9 @@ std::uint64_t apply_image(PixelSource& source, const ImageLayout& layout, const 
       sink->copy(i);
       continue;
     }
-    const PictureRun run(source, layout, config, apply, layout.outputs[i], show);
+    const auto frame = frames ? frames->find(layout.outputs[i].source) : FrameLights::const_iterator();
+    const PictureRun run(source, layout, config, apply, layout.outputs[i], show,
+                         frames && frame != frames->end() ? &frame->second : nullptr);
     const Picture& picture = source.pictures()[layout.outputs[i].source];
     // OpenEXR wants the rows in the order that its header states, the other formats from the top.
     const bool descending = picture.descending && layout.format == "openexr";

@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -87,6 +88,10 @@ void set_stamps(ImageLayout& layout, const std::vector<Attribute>& stamps);
 /// has it. Called from any number of threads at once.
 using RowOperator = std::function<void(const PixelRows& rows, std::uint8_t* touched)>;
 
+class FrameLight;
+/// Light of pictures that whole-picture stages have changed, by their index in the source.
+using FrameLights = std::map<std::size_t, FrameLight>;
+
 /// Called after each band with rows done and rows in all.
 using Progress = std::function<void(std::int64_t done, std::int64_t total)>;
 
@@ -104,11 +109,13 @@ LuminanceHistogram measure_base(PixelSource& source, const ImageLayout& layout, 
                                 const RowOperator& apply, const SpatialFilters& filters);
 
 /// Writes the whole output. Without `apply` (empty) nothing is called for: where nothing else changes values either,
-/// the file's own bytes go through. `filters` are applied after it, to each picture by itself, `show` last. Same bytes for any number of
+/// the file's own bytes go through. `filters` are applied after it, to each picture by itself, `show` last. `frames`: light that takes
+/// the place of what the file holds. Same bytes for any number of
 /// threads. Returns how many pixels with a component that is not finite went through without `apply`.
 std::uint64_t apply_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
                           const RowOperator& apply, OutputFile& file, const Progress& progress = nullptr,
-                          const SpatialFilters& filters = {}, const RowOperator& show = {});
+                          const SpatialFilters& filters = {}, const RowOperator& show = {},
+                          const FrameLights* frames = nullptr);
 
 /// Threads for rows and for OpenEXR's chunks; 0: one for each processor.
 void set_threads(int count);

@@ -93,6 +93,10 @@ AcuityChoice understand(const AcuityOptions& o) {
   return out;
 }
 
+bool is_panorama(const AcuityChoice& choice, const PixelSource& source, const ImageLayout& layout) {
+  return choice.panorama.value_or(is_lat_long(source, layout));
+}
+
 AngularResolution angular_resolution(const AcuityChoice& choice, const PixelSource& source,
                                      const ImageLayout& layout) {
   if (choice.pixels_per_degree) return {*choice.pixels_per_degree, true, "--ppd"};
@@ -101,7 +105,7 @@ AngularResolution angular_resolution(const AcuityChoice& choice, const PixelSour
   if (const std::optional<double> camera = camera_field_of_view(source, layout))
     return {pixels_per_degree(width, *camera), true,
             fmt::format("the camera's focal length, {:.3g} degrees wide", *camera)};
-  if (choice.panorama.value_or(is_lat_long(source, layout))) return {pixels_per_degree_of_panorama(width), true, "a panorama: 360 degrees wide"};
+  if (is_panorama(choice, source, layout)) return {pixels_per_degree_of_panorama(width), true, "a panorama: 360 degrees wide"};
   if (layout.night || layout.output_space.for_a_device())
     return {pixels_per_degree(width, assumed_degrees), true,
             fmt::format("assumed: the picture is {:g} degrees wide; --fov or --ppd tells", assumed_degrees)};

@@ -52,6 +52,9 @@ AcuityChoice understand(const AcuityOptions& options);
 AngularResolution angular_resolution(const AcuityChoice& choice, const PixelSource& source,
                                      const ImageLayout& layout);
 
+/// Whether the picture is a panorama whose left side is right of its right one: as told, else as the file says.
+bool is_panorama(const AcuityChoice& choice, const PixelSource& source, const ImageLayout& layout);
+
 /// The filter of a scene, for a plan that runs it.
 std::unique_ptr<SpatialFilter> acuity_filter(const AcuityChoice& choice, const AppearanceParameters& scene,
                                              const AngularResolution& resolution, const Console& console);

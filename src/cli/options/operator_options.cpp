@@ -48,14 +48,15 @@ double strength(const char* option, const std::string& text) {
 void choose_effects(const std::string& list, OperatorChoice& choice) {
   choice.plan_effects = list == "auto";
   if (list == "all" || choice.plan_effects) {
-    choice.acuity = AcuityWish::if_known;
+    choice.acuity = choice.glare = EffectWish::if_known;
     return;
   }
   Strengths& s = choice.parameters.strength;
   const Names<double*> effects = {{"shift", &s.shift}, {"luminance", &s.luminance}, {"chroma", &s.chroma}};
-  double acuity = 0;
+  double acuity = 0, glare = 0;
   Names<double*> known = effects;
   known.emplace_back("acuity", &acuity);
+  known.emplace_back("glare", &glare);
   for (const char* whole : {"all", "none", "auto"}) known.emplace_back(whole, nullptr);
   std::vector<double*> chosen;
   for (std::size_t at = 0; list != "none" && at <= list.size();) {
@@ -63,7 +64,8 @@ void choose_effects(const std::string& list, OperatorChoice& choice) {
     const std::string name = list.substr(at, comma - at);
     double* const effect = scotopic::choice("--effects", name, known);
     if (!effect) fail_value("--effects", list, "a list: all, none and auto stand alone");
-    if (effect == &acuity) choice.acuity = AcuityWish::yes;
+    if (effect == &acuity) choice.acuity = EffectWish::yes;
+    if (effect == &glare) choice.glare = EffectWish::yes;
     chosen.push_back(effect);
     at = comma + 1;
   }
@@ -93,7 +95,7 @@ void add_operator_options(CLI::App& verb, OperatorOptions& o) {
   add("--model", o.model, "filament2021 (default), kirk2011, safko2019", "NAME");
   add("--safko-scale", o.safko_scale, "T of safko2019: its kernel's units per cd/m2 (default 1)", "X");
   add("--effects", o.effects,
-      "auto (default: what the scene calls for), all, none, or of shift,luminance,chroma,acuity", "LIST");
+      "auto (default: what the scene calls for), all, none, or of glare,shift,luminance,chroma,acuity", "LIST");
   add("--strength", o.strength, "Of all effects, 0 to 1", "X");
   add("--strength-shift", o.strength_shift, "Of the rods' colour shift, 0 to 1", "X");
   add("--strength-luminance", o.strength_luminance, "Of the luminance policy, 0 to 1", "X");

@@ -30,8 +30,9 @@ struct OperatorOptions {
   std::string rods = "linear";
 };
 
-/// Whether --effects asks for acuity: in a list by name; all and auto only where pixels per degree are known.
-enum class AcuityWish { no, if_known, yes };
+/// Whether --effects asks for a stage that looks at neighbours: in a list by name; all and auto only where pixels per
+/// degree are known.
+enum class EffectWish { no, if_known, yes };
 
 /// As understood. Adaptation, white luminance and primaries in `parameters` are not set yet.
 struct OperatorChoice {
@@ -41,7 +42,8 @@ struct OperatorChoice {
   AdaptationMethod metering;
   std::optional<double> white_luminance;  ///< nullopt: the file's, or from the adaptation
   bool plan_effects = false;              ///< --effects auto
-  AcuityWish acuity = AcuityWish::no;
+  EffectWish acuity = EffectWish::no;
+  EffectWish glare = EffectWish::no;
   std::string gamut;
   IlluminantChoice illuminant;
 };

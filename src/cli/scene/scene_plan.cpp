@@ -5,8 +5,8 @@ namespace scotopic {
 PlanRequest plan_request(const OperatorChoice& choice, const AcuityChoice& acuity, const AngularResolution& resolution) {
   PlanRequest request;
   request.parameters = choice.parameters;
-  request.acuity = acuity.asked || choice.acuity == AcuityWish::yes ||
-                   (choice.acuity == AcuityWish::if_known && resolution.known);
+  request.acuity = acuity.asked || choice.acuity == EffectWish::yes ||
+                   (choice.acuity == EffectWish::if_known && resolution.known);
   if (acuity.parameters.strength * choice.parameters.strength.all == 0) request.acuity = false;
   if (resolution.known || request.acuity) request.pixels_per_degree = resolution.pixels_per_degree;
   return request;
@@ -23,6 +23,11 @@ ScenePlan plan_of(const OperatorChoice& choice, const PlanRequest& request, cons
       d.reason += "; applied all the same: --effects says so";
     }
   return plan;
+}
+
+void replace_decision(ScenePlan& plan, const EffectDecision& decision) {
+  for (EffectDecision& d : plan.effects)
+    if (d.effect == decision.effect) d = decision;
 }
 
 std::string plan_line(const ScenePlan& plan) {

@@ -18,6 +18,9 @@ PlanRequest plan_request(const OperatorChoice& choice, const AcuityChoice& acuit
 ScenePlan plan_of(const OperatorChoice& choice, const PlanRequest& request, const SceneStatistics* statistics);
 
 /// "shift, chroma; skipped luminance (no pixel's S/P ...), acuity (...)".
+/// Puts a decision taken elsewhere in its place.
+void replace_decision(ScenePlan& plan, const EffectDecision& decision);
+
 std::string plan_line(const ScenePlan& plan);
 
 nlohmann::ordered_json plan_json(const ScenePlan& plan);

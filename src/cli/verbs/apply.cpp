@@ -10,6 +10,7 @@
 #include "cli/program.h"
 #include "cli/sequence/recipe.h"
 #include "cli/sequence/run_frames.h"
+#include "cli/scene/glare_options.h"
 #include "cli/scene/scene_plan.h"
 #include "cli/scene/scene_settings.h"
 #include "cli/sequence/shot.h"
@@ -28,6 +29,7 @@ struct ApplyOptions {
   std::string adaptation_from;
   PrecisionOptions precision;
   DisplayOptions display;
+  GlareOptions glare;
   IccOptions icc;
   std::string non_finite = "keep";
   FrameOptions frames;
@@ -133,15 +135,18 @@ class ApplyJob : public FrameJob {
     SceneNumbers numbers;
     AngularResolution resolution;
     ScenePlan plan;
+    GlareOutcome glare;
   };
 
   Seen look(const FramePaths& paths, const Console& console) const;
+  void add_glare(Seen& frame, std::optional<SceneStatistics>& statistics) const;
   std::vector<Attribute> stamps_of(const Seen& frame, const std::string& way, const std::string& recipe) const;
 
   WayKeeper ways_;
   NonFinite non_finite_;
   ImageRequest asked_;
   DisplayChoice display_;
+  GlareChoice glare_;
   SceneSettings settings_;
 };
 
@@ -150,6 +155,7 @@ ApplyJob::ApplyJob(const ApplyOptions& o, const Console& console)
       non_finite_(non_finite_policy(o.non_finite)),
       asked_(understand(o.scene.image)),
       display_(understand(o.display, asked_)),
+      glare_(understand(o.glare)),
       settings_((understand(o.icc, asked_), o.scene), o.common.threads) {
   settings_.request = asked_;
   if (asked_.view) settings_.config = settings_.config.holding(*asked_.view);
@@ -164,6 +170,25 @@ std::string ApplyJob::settings() const {
 }
 
 /// Opens the image and decides what is computed, after a look at the pixels where the options leave that to them.
+/// Glare comes first: its threshold rests on the adaptation as given, or metered on the picture; what follows on what the
+/// picture is with it.
+void ApplyJob::add_glare(Seen& frame, std::optional<SceneStatistics>& statistics) const {
+  const OperatorChoice& choice = settings_.choice;
+  Scene& scene = frame.scene;
+  NightDisplayParameters shown = display_.night;
+  shown.adaptation = frame.numbers.adaptation;
+  shown.white_luminance = frame.numbers.white_luminance;
+  frame.glare = scatter(glare_, choice.parameters.model == Model::safko2019 ? EffectWish::no : choice.glare,
+                        1 / display_scale(shown), *scene.source, scene.layout, settings_.config, choice.parameters,
+                        frame.resolution, is_panorama(settings_.acuity, *scene.source, scene.layout), settings_.limits);
+  const auto first = frame.glare.frames.find(scene.layout.light.front().index);
+  if (!statistics || first == frame.glare.frames.end()) return;
+  const Picture& picture = scene.source->pictures()[first->first];
+  statistics = measure_frame(first->second, picture, choice.parameters, choice.metering.region);
+  if (!choice.adaptation)
+    frame.numbers = settle(scene.known, metered(*statistics, choice.metering), scene.source->file());
+}
+
 ApplyJob::Seen ApplyJob::look(const FramePaths& paths, const Console& console) const {
   Seen frame;
   Scene& scene = frame.scene;
@@ -174,15 +199,18 @@ ApplyJob::Seen ApplyJob::look(const FramePaths& paths, const Console& console) c
   if (non_finite_ == NonFinite::error) refuse_non_finite(source, scene.layout, settings_.config);
   const MeteredScene metered = meter(scene, settings_, false);
   frame.numbers = metered.numbers;
+  frame.resolution = angular_resolution(settings_.acuity, source, scene.layout);
+  std::optional<SceneStatistics> statistics = metered.statistics;
+  add_glare(frame, statistics);
   console.note(source.file() + ": " + describe(frame.numbers));
   OperatorChoice choice = settings_.choice;
   choice.parameters.adaptation = frame.numbers.adaptation;
   choice.parameters.white_luminance = frame.numbers.white_luminance;
-  frame.resolution = angular_resolution(settings_.acuity, source, scene.layout);
   const PlanRequest request = plan_request(choice, settings_.acuity, frame.resolution);
   if (request.acuity && !frame.resolution.known)
     throw Error(ExitCode::usage, source.file(), "detail needs pixels per degree, which are not known: --fov or --ppd");
-  frame.plan = plan_of(choice, request, metered.statistics ? &*metered.statistics : nullptr);
+  frame.plan = plan_of(choice, request, statistics ? &*statistics : nullptr);
+  replace_decision(frame.plan, frame.glare.decision);
   console.note(source.file() + ": " + plan_line(frame.plan));
   return frame;
 }
@@ -220,9 +248,11 @@ nlohmann::ordered_json ApplyJob::run(const FrameTask& task, const Console& conso
   const RowOperator show = night.batch ? RowOperator([&](const PixelRows& rows, std::uint8_t* touched) {
     night.batch->apply(rows, touched);
   }) : RowOperator();
-  for (const auto* more : {&display.stamps, &night.stamps}) stamps.insert(stamps.end(), more->begin(), more->end());
+  for (const std::vector<Attribute>* more : {&display.stamps, &night.stamps, static_cast<const std::vector<Attribute>*>(&frame.glare.stamps)})
+    stamps.insert(stamps.end(), more->begin(), more->end());
   set_stamps(layout, stamps);
-  const std::uint64_t unseen = apply_image(source, layout, settings_.config, apply, file, task.progress, filters, show);
+  const std::uint64_t unseen = apply_image(source, layout, settings_.config, apply, file, task.progress, filters, show,
+                                           frame.glare.frames.empty() ? nullptr : &frame.glare.frames);
   nlohmann::ordered_json result = result_of(task.paths, frame.numbers, layout, stamps, source);
   result["effects"] = plan_json(frame.plan);
   result["nonFinite"] = report_non_finite(
@@ -270,6 +300,7 @@ void add_apply(CLI::App& program, Invocation& invocation) {
   add_band_options(verb, scene.bands);
   add_acuity_options(verb, scene.acuity);
   add_display_options(verb, options->display);
+  add_glare_options(verb, options->glare);
   verb.add_option("--nonfinite", options->non_finite, "NaN and infinite pixels: keep, clean (to 0), or error")
       ->type_name("WHAT");
   add_input_options(verb, scene.image);

@@ -78,7 +78,7 @@ std::vector<double> adaptations_of(const BakeOptions& o) {
 /// --effects auto is all: what a scene calls for is decided pixel by pixel, in the LUT.
 OperatorChoice operator_choice(const OperatorOptions& o) {
   const OperatorChoice out = understand(o);
-  if (out.acuity == AcuityWish::yes)
+  if (out.acuity == EffectWish::yes)
     fail_value("--effects", o.effects,
                "shift, luminance and chroma: acuity needs a pixel's neighbours, which no LUT sees");
   return out;
