@@ -110,7 +110,7 @@ class PixelStages {
     if (shift_on()) shift(n_, k_.shift, k_.receptors, *this, s);
     if (luminance_on()) luminance(n_, k_.luminance, k_.receptors, *this, s);
     if (chroma_on()) chroma(n_, k_.chroma, k_.receptors, s);
-    seen.rgb = s.rgb;
+    seen.rgb = any && on_.mix ? p.rgb + n_.constant(k_.mix) * (s.rgb - p.rgb) : s.rgb;
   }
 
   // The thesis' pipeline: the kernel alone, at every luminance.

@@ -309,7 +309,13 @@ Summed<Real> ExactOperator<Real>::with_terms(const ReferencePixel& pixel) const 
   const Real local = p.weight == Weight::global ? la : Real(la + unit * at_least_0(y));
   if (local >= Real(5)) return out;
   const Real m = exact_mesopic_coefficient(local, dec<Real>("2.4648"));
-  const Real all(p.strength.all), full = Real(p.strength.shift) * all, w = full * (Real(1) - m);
+  if (!(p.strength.all > 0)) return out;
+  const Real all(p.strength.all), full = Real(p.strength.shift), w = full * (Real(1) - m);
+  const auto mixed = [&] {
+    out.value = plus(rgb, times(all, minus(out.value, rgb)));
+    out.terms = plus(absolute(rgb), times(all, plus(out.terms, absolute(rgb))));
+    return out;
+  };
 
   if (w > Real(0)) {
     const Triple<Real> rods = times(Real(Real(1) / unit), damped_rods(times(unit, q.value), Real(unit * rod)));
@@ -331,7 +337,7 @@ Summed<Real> ExactOperator<Real>::with_terms(const ReferencePixel& pixel) const 
   }
   if (p.luminance != LuminancePolicy::none && p.strength.luminance > 0) {
     const Real from = inner(s_.xyz_from_rgb[1], out.value);
-    const Real goal = y + all * (policy_luminance(y, at_least_0(rod), m) - y);
+    const Real goal = policy_luminance(y, at_least_0(rod), m);
     const Real to = from + Real(p.strength.luminance) * (goal - from);
     Real largest(0);
     for (const Triple<Real>& cones : {s_.lms_from_rgb * rgb, s_.lms_from_rgb * out.value})
@@ -343,15 +349,15 @@ Summed<Real> ExactOperator<Real>::with_terms(const ReferencePixel& pixel) const 
     out.value = times(ratio, out.value);
     out.terms = times(size * Real(64) < largest ? Real(ratio + Real(1)) : ratio, out.terms);
   }
-  const Real faded = Real(p.strength.chroma) * all * (Real(1) - exact_chroma_factor(local));
+  const Real faded = Real(p.strength.chroma) * (Real(1) - exact_chroma_factor(local));
   const Triple<Real>& weights = s_.xyz_from_rgb[1];
   const Real grey = inner(weights, out.value), grey_terms = inner(absolute(weights), out.terms);
-  if (!(faded > Real(0))) return out;
+  if (!(faded > Real(0))) return mixed();
   for (std::size_t i = 0; i < 3; ++i) {
     out.value[i] = grey + (Real(1) - faded) * (out.value[i] - grey);
     out.terms[i] = grey_terms + (Real(1) - faded) * out.terms[i];
   }
-  return out;
+  return mixed();
 }
 
 template Mp exact_pupil_diameter(const Mp&);

@@ -114,6 +114,20 @@ TEST(Reference, each_effect_alone_has_its_own_switch) {
   }
 }
 
+TEST(Reference, the_strength_of_all_mixes_result_and_input_so_that_a_slider_is_monotone) {
+  for (const double la : {1.0, 0.1, 0.001})
+    for (const Vec3<double>& rgb : {Vec3<double>{0.3, 0.2, 0.1}, {1, 0.02, 0.01}, {0.02, 0.1, 3}}) {
+      auto p = at(la);
+      const Vec3<double> full = AppearanceReference(p)({rgb});
+      for (const double s : {0.0, 0.25, 0.5, 0.9}) {
+        p.strength.all = s;
+        const Vec3<double> mixed = AppearanceReference(p)({rgb});
+        for (std::size_t i = 0; i < 3; ++i)
+          EXPECT_NEAR(mixed[i], (1 - s) * rgb[i] + s * full[i], 1e-15 * std::abs(rgb[i]) + 1e-15 * std::abs(full[i])) << la << " " << s;
+      }
+    }
+}
+
 TEST(Reference, result_is_inside_the_gamut_or_no_further_out_than_the_input) {
   auto p = at(0.02);
   p.model = Model::kirk2011;

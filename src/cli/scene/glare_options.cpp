@@ -20,7 +20,7 @@ double pixel_aspect(const PixelSource& source, std::size_t index) {
 }
 
 GlareFilter filter_for(const GlareChoice& choice, double threshold, const PixelSource& source, const LightPicture& light,
-                       const AngularResolution& resolution, bool panorama) {
+                       const AngularResolution& resolution, bool panorama, double strength) {
   const Window& data = source.pictures()[light.index].data;
   GlareParameters p;
   p.eye = choice.eye;
@@ -31,7 +31,7 @@ GlareFilter filter_for(const GlareChoice& choice, double threshold, const PixelS
   p.grid.ppd_x = resolution.pixels_per_degree;
   p.grid.ppd_y = resolution.pixels_per_degree * pixel_aspect(source, light.index);
   p.grid.sides = panorama ? GlareSides::meet : GlareSides::end;
-  p.grid.strength = choice.strength;
+  p.grid.strength = choice.strength * strength;
   try {
     return GlareFilter(p);
   } catch (const std::invalid_argument& e) {
@@ -92,7 +92,7 @@ GlareOutcome scatter(const GlareChoice& choice, EffectWish wish, double threshol
   d.effect = "glare";
   d.unit = "pixels";
   const bool by_name = wish == EffectWish::yes || (choice.named && !choice.off);
-  d.asked = !choice.off && choice.strength > 0 && (by_name || (wish == EffectWish::if_known && resolution.known));
+  d.asked = !choice.off && choice.strength * parameters.strength.all > 0 && (by_name || (wish == EffectWish::if_known && resolution.known));
   if (by_name && d.asked && !resolution.known)
     throw Error(ExitCode::usage, source.file(), "glare needs pixels per degree, which are not known: --fov or --ppd");
   d.reason = resolution.known ? "not asked for" : "pixels per degree are not known (--ppd, --fov)";
@@ -101,7 +101,7 @@ GlareOutcome scatter(const GlareChoice& choice, EffectWish wish, double threshol
   for (const LightPicture& light : layout.light) {
     const Picture& picture = source.pictures()[light.index];
     if (picture.level_x != 0 || picture.level_y != 0) continue;
-    const GlareFilter filter = filter_for(choice, threshold, source, light, resolution, panorama);
+    const GlareFilter filter = filter_for(choice, threshold, source, light, resolution, panorama, parameters.strength.all);
     check_memory(filter, source, light, is_receptors(light), limits);
     FrameLight frame = read_frame(source, light, config);
     const GlareNeed need = filter.need(frame.glare_picture(), {y[0], y[1], y[2]}, pool_for());

@@ -38,16 +38,16 @@ struct ApplyOptions {
 
 std::vector<Attribute> parameter_stamps(const AppearanceParameters& p, const OperatorChoice& choice,
                                         const ImageLayout& layout) {
-  const auto share = [&](double strength) { return p.strength.all * strength; };
   const ColourChannels::Kind kind = layout.light.front().channels.kind;
   const bool own = kind == ColourChannels::Kind::lmsr || kind == ColourChannels::Kind::computed;
   std::vector<Attribute> stamps = {{"scotopic:version", std::string(SCOTOPIC_VERSION)},
                                    {"scotopic:model", model_name(p.model)},
                                    {"scotopic:adaptation", p.adaptation},
                                    {"scotopic:sceneWhiteLuminance", p.white_luminance},
-                                   {"scotopic:strengthShift", share(p.strength.shift)},
-                                   {"scotopic:strengthLuminance", share(p.strength.luminance)},
-                                   {"scotopic:strengthChroma", share(p.strength.chroma)},
+                                   {"scotopic:strength", p.strength.all},
+                                   {"scotopic:strengthShift", p.strength.shift},
+                                   {"scotopic:strengthLuminance", p.strength.luminance},
+                                   {"scotopic:strengthChroma", p.strength.chroma},
                                    {"scotopic:weight", weight_name(p.weight)},
                                    {"scotopic:luminance", luminance_name(p.luminance)},
                                    {"scotopic:gamut", choice.gamut},

@@ -53,7 +53,7 @@ HWY_INLINE void luminance(const N& n, const LuminanceConstants<typename N::T>& k
   const V floor_light = n.constant(k.floor) * largest_cone(n, k, s.cones_in, s.cones);
   const V from = dot(n, receptors.y_row, s.rgb);
   const V policy = on.mesopic_luminance() ? mesopic_policy_luminance(n, k, s.y, s.rod, s.share) : s.y;
-  const V goal = s.y + n.constant(k.goal) * (policy - s.y);
+  const V goal = s.y + (policy - s.y);
   // From the goal's side: at strength 1 this is the goal to the last digit, however far `from` is.
   const V to = goal + n.constant(k.left) * (from - goal);
   s.rgb = ratio_of_luminances(n, from, to, floor_light) * s.rgb;

@@ -29,8 +29,8 @@ struct OperatorConstants {
   Vec3<double> luminance_from_rgb;  ///< Y row of xyz_from_rgb
   Vec3<double> cone_white;          ///< q of image white (1, 1, 1)
   double rod_white;                 ///< r of a D65 white of luminance 1, as the rod estimate in use gives it
-  double shift, luminance, chroma;  ///< effective strengths (shift and chroma times `all`); luminance 0: off
-  double luminance_goal;            ///< `all`: how far the luminance goes from the input's to the policy's
+  double shift, luminance, chroma;  ///< strengths of the stages; 0: off, as all are at mix 0
+  double mix;                       ///< share of the result in what comes out; the rest is the input
   Matrix3<double> gamut_from_rgb;   ///< of the projection's gamut; identity if none
   Matrix3<double> rgb_from_gamut;
   bool project;

@@ -14,7 +14,8 @@ enum class Weight { local, global };
 /// What luminance a pixel gets: that of MES2, the photopic one it came with, or the kernel's own.
 enum class LuminancePolicy { mesopic, photopic, none };
 
-/// Strength of each effect, 0 (off, costs nothing) to 1 (the model). `all` multiplies every other one.
+/// Strength of each effect, 0 (off, costs nothing) to 1 (the model). `all` mixes result and input, in linear light:
+/// (1 - all) in + all out, so that a slider is monotone.
 struct Strengths {
   double all = 1.0;
   double shift = 1.0;

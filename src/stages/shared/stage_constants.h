@@ -68,7 +68,7 @@ struct LuminanceConstants {
   T rods_weight;  ///< rho C
   T inverse_rod_white;
   T left;  ///< 1 - strength
-  T goal, floor;
+  T floor;
   Vec3<T> inverse_cone_white;
 };
 
@@ -80,7 +80,7 @@ struct ChromaConstants {
 
 /// What is on.
 struct StageSwitches {
-  bool safko, local, mesopic_policy, quadratic_rods, shift, project, gamut_is_rgb, luminance, chroma;
+  bool safko, local, mesopic_policy, quadratic_rods, shift, project, gamut_is_rgb, luminance, chroma, mix;
 
   explicit StageSwitches(const OperatorConstants& c) noexcept
       : safko(c.parameters.model == Model::safko2019),
@@ -91,7 +91,8 @@ struct StageSwitches {
         project(c.project),
         gamut_is_rgb(c.gamut_is_rgb),
         luminance(c.luminance > 0),
-        chroma(c.chroma > 0) {}
+        chroma(c.chroma > 0),
+        mix(c.mix > 0 && c.mix < 1) {}
 };
 
 /// Stages that code without branches is compiled for; all with local weight, linear rods, and a projection into the
@@ -107,7 +108,7 @@ enum class StageSet {
 
 /// The set that is on; any, where there is no loop for just that.
 constexpr StageSet stage_set(const StageSwitches& on) noexcept {
-  if (on.quadratic_rods) return StageSet::any;
+  if (on.quadratic_rods || (on.mix && !on.safko)) return StageSet::any;
   if (on.safko) return StageSet::kernel;
   if (!on.local || (on.shift && !on.gamut_is_rgb)) return StageSet::any;
   if (on.shift && on.luminance && on.chroma) return on.mesopic_policy ? StageSet::all : StageSet::grey;
@@ -124,6 +125,7 @@ struct StageConstants {
   ShiftConstants<T> shift;
   LuminanceConstants<T> luminance;
   ChromaConstants<T> chroma;
+  T mix;  ///< share of the result in what comes out
 
   /// Rounds each product once.
   explicit StageConstants(const OperatorConstants& c);
@@ -194,7 +196,7 @@ template <typename T>
 LuminanceConstants<T> luminance_constants(const OperatorConstants& c) {
   const auto t = [](double x) { return static_cast<T>(x); };
   LuminanceConstants<T> k{t(sp_ratio_d65 * mes2_efficacy_ratio), t(1 / c.rod_white), t(1 - c.luminance),
-                          t(c.luminance_goal), t(luminance_floor), {}};
+                          t(luminance_floor), {}};
   for (std::size_t i = 0; i < 3; ++i) k.inverse_cone_white[i] = t(1 / c.cone_white[i]);
   return k;
 }
@@ -211,6 +213,7 @@ StageConstants<T>::StageConstants(const OperatorConstants& c)
       receptors(receptor_constants<T>(c)),
       shift(shift_constants<T>(c)),
       luminance(luminance_constants<T>(c)),
-      chroma(chroma_constants<T>(c)) {}
+      chroma(chroma_constants<T>(c)),
+      mix(static_cast<T>(c.mix)) {}
 
 }  // namespace scotopic
