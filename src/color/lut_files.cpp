@@ -2,10 +2,16 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <fstream>
 #include <map>
+#include <span>
+#include <vector>
 
 #include "base/error.h"
 #include "base/input_file.h"
+#include "color/icc/icc_check.h"
+#include "color/lut_trial.h"
 
 namespace OCIO = OCIO_NAMESPACE;
 
@@ -105,7 +111,23 @@ class Walk {
       return;
     }
     struct stat info = {};
-    if (stat(file.c_str(), &info) == 0) (void)check_input_file(file, ExitCode::config, limits_.lut, "--max-lut-size");
+    if (stat(file.c_str(), &info) != 0) return;
+    (void)check_input_file(file, ExitCode::config, limits_.lut, "--max-lut-size");
+    check_icc_file(file);
+    try_lut_file(file);
+  }
+
+  /// OpenColorIO reads profiles, too.
+  static void check_icc_file(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::vector<char> bytes(most_icc_bytes + 1);
+    in.read(bytes.data(), 132);
+    const auto start = static_cast<std::size_t>(in.gcount());
+    if (!is_icc(std::as_bytes(std::span(bytes).first(start)))) return;
+    in.read(bytes.data() + start, static_cast<std::streamsize>(bytes.size() - start));
+    bytes.resize(start + static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));
+    const std::string fault = fault_of_icc(std::as_bytes(std::span(bytes)));
+    if (!fault.empty()) throw Error(ExitCode::config, file, "is damaged: " + fault);
   }
 
   const OCIO::ConstConfigRcPtr& config_;

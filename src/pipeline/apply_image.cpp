@@ -33,10 +33,10 @@ class PictureRun {
         reader_(light_.channels, config, light_.space) {
     writer_.from_working = config.from_working(layout.output_space);
     writer_.gain = static_cast<float>(std::exp2(layout.exposure));
-    if (light_.channels.alpha && source_picture_.unassociated_alpha != out.picture.unassociated_alpha)
-      writer_.alpha = out.picture.unassociated_alpha ? AlphaChange::unassociate : AlphaChange::associate;
-    writer_.keep_untouched = !out.new_space && writer_.gain == 1 && writer_.alpha == AlphaChange::none;
     find_others();
+    set_alpha(config.linear_xyz(layout.output_space).has_value());
+    const bool same_alpha = !light_.channels.alpha || source_picture_.unassociated_alpha == out.picture.unassociated_alpha;
+    writer_.keep_untouched = !out.new_space && writer_.gain == 1 && same_alpha;
   }
 
   /// Fills `out` from `in`; `interleaved` as the sink wants it.
@@ -191,6 +191,15 @@ class PictureRun {
   void copy_others(const Band& in, int row, LightRow& room, const Band& out) const {
     for (std::size_t i = 0; i < others_.size(); ++i)
       copy_other(in.channels[others_[i]].row(row), out.channels[3 + i].row(row), room.r);
+  }
+
+  /// Without alpha beside it colour is written as the light it is.
+  void set_alpha(bool linear) {
+    const std::optional<std::size_t>& alpha = light_.channels.alpha;
+    if (!alpha || std::find(others_.begin(), others_.end(), *alpha) == others_.end()) return;
+    const bool straight = out_.picture.unassociated_alpha;
+    writer_.divide_by_alpha = straight || !linear;
+    writer_.multiply_by_alpha = !straight && !linear;
   }
 
   /// Channels that are not colour follow R, G, B, in the file's order.
