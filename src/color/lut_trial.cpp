@@ -75,7 +75,8 @@ int wait_for(pid_t child) {
 
 void try_now(const std::string& file, rlim_t size) {
   const pid_t child = fork();
-  if (child < 0) throw Error(ExitCode::limit, file, "cannot be tried in a process of its own: no process is to be had");
+  if (child < 0)
+    throw Error(ExitCode::limit, file, "cannot be tried in a process of its own: no process is to be had");
   if (child == 0) read_in_child(file, size);
   const int status = wait_for(child);
   if (WIFEXITED(status) && WEXITSTATUS(status) == no_memory)
@@ -83,7 +84,8 @@ void try_now(const std::string& file, rlim_t size) {
   if (!WIFSIGNALED(status)) return;
   const bool time = WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL;
   throw Error(ExitCode::config, file,
-              time ? "is damaged: OpenColorIO comes to no end reading it" : "is damaged: OpenColorIO crashes reading it");
+              time ? "is damaged: OpenColorIO comes to no end reading it"
+                   : "is damaged: OpenColorIO crashes reading it");
 }
 
 }  // namespace

@@ -9,7 +9,9 @@ namespace scotopic {
 namespace {
 
 double srgb_decode(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
-double srgb_encode(double v) { return v <= 0.04045 / 12.92 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
+double srgb_encode(double v) {
+  return v <= 0.04045 / 12.92 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+}
 
 double power_decode(double v, double g) { return v > 0 ? std::pow(v, g) : v; }
 

@@ -15,14 +15,54 @@ namespace {
 using Kind = ColourChannels::Kind;
 
 // Words in lower case; letters alone count where they are all of a name.
-constexpr std::array<std::string_view, 47> data_words = {
-    "crypto",      "cryptomatte", "cryptoobject", "cryptomaterial", "cryptoasset", "normal",    "normals", "n",
-    "ng",          "nn",          "nworld",       "ncamera",        "nref",        "depth",     "z",       "zdepth",
-    "zback",       "position",    "positions",    "p",              "pworld",      "pcamera",   "pref",    "worldposition",
-    "motion",      "motionvector", "motionvectors", "vector",       "velocity",    "uv",        "st",      "id",
-    "ids",         "objectid",    "materialid",   "instanceid",     "index",       "indexob",   "indexma", "mist",
-    "tangent",     "tangents",    "variance",     "samplecount",    "matte",       "mattes",    "mask"};
-constexpr std::array<std::string_view, 9> beauty_words = {"beauty", "combined", "rgb",   "rgba", "ci",
+constexpr std::array<std::string_view, 47> data_words = {"crypto",
+                                                         "cryptomatte",
+                                                         "cryptoobject",
+                                                         "cryptomaterial",
+                                                         "cryptoasset",
+                                                         "normal",
+                                                         "normals",
+                                                         "n",
+                                                         "ng",
+                                                         "nn",
+                                                         "nworld",
+                                                         "ncamera",
+                                                         "nref",
+                                                         "depth",
+                                                         "z",
+                                                         "zdepth",
+                                                         "zback",
+                                                         "position",
+                                                         "positions",
+                                                         "p",
+                                                         "pworld",
+                                                         "pcamera",
+                                                         "pref",
+                                                         "worldposition",
+                                                         "motion",
+                                                         "motionvector",
+                                                         "motionvectors",
+                                                         "vector",
+                                                         "velocity",
+                                                         "uv",
+                                                         "st",
+                                                         "id",
+                                                         "ids",
+                                                         "objectid",
+                                                         "materialid",
+                                                         "instanceid",
+                                                         "index",
+                                                         "indexob",
+                                                         "indexma",
+                                                         "mist",
+                                                         "tangent",
+                                                         "tangents",
+                                                         "variance",
+                                                         "samplecount",
+                                                         "matte",
+                                                         "mattes",
+                                                         "mask"};
+constexpr std::array<std::string_view, 9> beauty_words = {"beauty", "combined", "rgb",   "rgba",  "ci",
                                                           "final",  "master",   "color", "colour"};
 
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
@@ -39,8 +79,9 @@ std::vector<std::string> words_of(std::string_view name) {
   char before = ' ';
   for (const char c : name) {
     const bool letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
-    const bool starts = !std::isalpha(static_cast<unsigned char>(before)) ||
-                        (std::isupper(static_cast<unsigned char>(c)) && std::islower(static_cast<unsigned char>(before)));
+    const bool starts =
+        !std::isalpha(static_cast<unsigned char>(before)) ||
+        (std::isupper(static_cast<unsigned char>(c)) && std::islower(static_cast<unsigned char>(before)));
     if (letter && starts) out.emplace_back();
     if (letter) out.back() += lower(c);
     before = c;
@@ -50,11 +91,14 @@ std::vector<std::string> words_of(std::string_view name) {
 
 template <std::size_t n>
 bool has_word(const std::array<std::string_view, n>& list, std::string_view name) {
-  const auto listed = [&](const std::string& word) { return std::find(list.begin(), list.end(), word) != list.end(); };
+  const auto listed = [&](const std::string& word) {
+    return std::find(list.begin(), list.end(), word) != list.end();
+  };
   const std::string last = lowered(name.substr(name.rfind('.') + 1));
   if (listed(last)) return true;
   const std::vector<std::string> words = words_of(name);
-  return std::any_of(words.begin(), words.end(), [&](const std::string& w) { return w.size() > 1 && listed(w); });
+  return std::any_of(words.begin(), words.end(),
+                     [&](const std::string& w) { return w.size() > 1 && listed(w); });
 }
 
 /// Channels of one layer by their last name; layer "" is the topmost.
@@ -137,7 +181,8 @@ ColourChannels only_one(const std::vector<ColourChannels>& candidates, const std
     if (is_beauty_name(c.layer)) beauties.push_back(c);
   }
   if (beauties.size() == 1) return beauties.front();
-  throw Error(ExitCode::usage, file, "has colour in several layers (" + name_list(names) + "); choose with --layer");
+  throw Error(ExitCode::usage, file,
+              "has colour in several layers (" + name_list(names) + "); choose with --layer");
 }
 
 }  // namespace

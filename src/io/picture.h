@@ -83,6 +83,7 @@ struct Picture {
   bool descending = false;
   /// False for deep or subsampled pixels, which can only be copied as they are.
   bool readable = true;
+  double pixel_aspect = 1;  ///< width over height of a pixel
   /// Colour values are not multiplied by alpha.
   bool unassociated_alpha = false;
   ColourTags colour;
@@ -91,6 +92,9 @@ struct Picture {
   std::vector<std::string> notes;
   std::optional<double> lmsr_unit;        ///< attribute scotopic:lmsrUnit, cd/m2 (docs: image/apply_image.h)
 };
+
+/// A pixel's aspect as a header states it; 1 for what is none, or beyond 0.1 to 10.
+inline double usable_aspect(double stated) { return stated >= 0.1 && stated <= 10 ? stated : 1.0; }
 
 /// One channel of a band: row r of it starts at data + r * row_stride.
 struct ChannelRows {

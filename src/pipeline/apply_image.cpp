@@ -252,9 +252,11 @@ PixelRows columns(PixelRows rows, std::uint64_t first, int count) {
 }
 
 /// A picture's way through each filter, in their order.
-std::deque<AcuityRows> filter_rows(const SpatialFilters& filters, const Picture& picture, bool descending, bool alpha) {
+std::deque<AcuityRows> filter_rows(const SpatialFilters& filters, const Picture& picture, bool descending, bool alpha,
+                                   bool wraps) {
   std::deque<AcuityRows> out;
-  for (const SpatialFilter* filter : filters) out.emplace_back(*filter, picture.data, descending, alpha);
+  const bool whole = picture.data.x0 == picture.display.x0 && picture.data.x1 == picture.display.x1;
+  for (const SpatialFilter* filter : filters) out.emplace_back(*filter, picture.data, descending, alpha, wraps && whole);
   return out;
 }
 
@@ -324,7 +326,7 @@ LuminanceHistogram measure_base(PixelSource& source, const ImageLayout& layout, 
     const Picture& picture = source.pictures()[out.source];
     if (out.copy || picture.level_x != 0 || picture.level_y != 0) continue;
     const PictureRun run(source, layout, config, apply, out);
-    std::deque<AcuityRows> rows_of_filters = filter_rows(filters, picture, false, false);
+    std::deque<AcuityRows> rows_of_filters = filter_rows(filters, picture, false, false, layout.wraps);
     each_band(picture, false, [&](int y0, int rows) {
       source.read(out.source, y0, rows, in);
       run.see_band(std::move(in), rows_of_filters, [&](const AcuityRows& seen) {
@@ -365,7 +367,7 @@ std::uint64_t apply_image(PixelSource& source, const ImageLayout& layout, const 
     const Picture& picture = source.pictures()[layout.outputs[i].source];
     // OpenEXR wants the rows in the order that its header states, the other formats from the top.
     const bool descending = picture.descending && layout.format == "openexr";
-    std::deque<AcuityRows> rows_of_filters = filter_rows(filters, picture, descending, run.has_alpha());
+    std::deque<AcuityRows> rows_of_filters = filter_rows(filters, picture, descending, run.has_alpha(), layout.wraps);
     const auto write = [&](const Band& seen) {
       sink->write(i, seen);
       done += seen.rows;

@@ -71,6 +71,7 @@ struct ImageLayout {
   ColourSpace output_space;
   double exposure = 0;
   std::optional<NightOutput> night;  ///< the display stage runs
+  bool wraps = false;  ///< a lat-long panorama: filters look across its left and right side
   std::vector<std::string> notes;
 
   /// The light of that picture of the source; nullptr: it holds none.

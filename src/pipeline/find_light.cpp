@@ -72,14 +72,17 @@ std::vector<std::string> spectral_look_alikes(const Picture& picture) {
                 "has no layer or part '" + layer + "' with R, G, B or L, M, S, R or Y" +
                     did_you_mean(layer, layer_names(source)) + has);
   if (!data.empty())
-    throw Error(ExitCode::input, source.file(), "holds data, not light (" + name_list(data) + "): --layer takes one for light");
+    throw Error(ExitCode::input, source.file(),
+                "holds data, not light (" + name_list(data) + "): --layer takes one for light");
   for (const Picture& picture : source.pictures()) {
     if (!picture.readable)
       throw Error(ExitCode::input, source.file(),
                   "has colour only in deep or subsampled channels, which are not supported" + has);
     if (!spectral_look_alikes(picture).empty())
-      throw Error(ExitCode::input, source.file(),
-                  "has bands of a form that is not read: name them S0.500,0nm (or T.) as spectral OpenEXR has it" + has);
+      throw Error(
+          ExitCode::input, source.file(),
+          "has bands of a form that is not read: name them S0.500,0nm (or T.) as spectral OpenEXR has it" +
+              has);
   }
   throw Error(ExitCode::input, source.file(), "has no channels R, G, B, nor L, M, S, R, nor Y" + has);
 }
@@ -91,7 +94,9 @@ bool are_views(const PixelSource& source, const std::vector<LightPicture>& light
   std::set<int> parts;
   for (const LightPicture& p : light) {
     const Picture& picture = source.pictures()[p.index];
-    const std::string view = !picture.view.empty() ? picture.view : usual.count(picture.name) ? picture.name : "";
+    const std::string view = !picture.view.empty()       ? picture.view
+                             : usual.count(picture.name) ? picture.name
+                                                         : "";
     if (view.empty()) return false;
     views.insert(view);
     parts.insert(picture.part);
@@ -115,7 +120,8 @@ void keep_pictures(const PixelSource& source, std::vector<LightPicture>& light) 
   if (beauties.size() != 1)
     throw Error(ExitCode::usage, source.file(),
                 "has several parts that could be its light (" + name_list(names) + "); choose with --layer");
-  std::erase_if(light, [&](const LightPicture& p) { return source.pictures()[p.index].part != *beauties.begin(); });
+  std::erase_if(light,
+                [&](const LightPicture& p) { return source.pictures()[p.index].part != *beauties.begin(); });
 }
 
 /// What stays as it is though it has names of colour, and what is not read of spectra.
@@ -125,27 +131,32 @@ std::vector<std::string> notes_of(const PixelSource& source, const std::vector<L
   for (std::size_t i = 0; i < source.pictures().size(); ++i) {
     const Picture& picture = source.pictures()[i];
     if (picture.level_x != 0 || picture.level_y != 0) continue;
-    const auto chosen = std::find_if(light.begin(), light.end(), [&](const LightPicture& p) { return p.index == i; });
+    const auto chosen =
+        std::find_if(light.begin(), light.end(), [&](const LightPicture& p) { return p.index == i; });
     if (chosen == light.end()) {
       if (parts.insert(picture.part).second && !picture.name.empty()) left.push_back(picture.name);
       continue;
     }
     for (const std::string& layer : colour_layers(picture))
-      if (layer != chosen->channels.layer && chosen->channels.kind != Kind::computed) left.push_back(layer.empty() ? "R, G, B" : layer);
+      if (layer != chosen->channels.layer && chosen->channels.kind != Kind::computed)
+        left.push_back(layer.empty() ? "R, G, B" : layer);
     for (const std::string& band : spectral_look_alikes(picture)) bands.push_back(band);
   }
-  if (!left.empty()) notes.push_back("layers or parts that are left as they are (--layer takes another): " + name_list(left));
+  if (!left.empty())
+    notes.push_back("layers or parts that are left as they are (--layer takes another): " + name_list(left));
   if (bands.empty()) return notes;
   const bool computed = light.front().channels.kind == Kind::computed;
-  notes.push_back(computed ? "fluorescence is left out: " + name_list(bands)
-                           : "R, G, B are taken for its light, though it has what looks like bands of a spectrum (" +
-                                 name_list(bands) + "), whose names are not those of spectral OpenEXR (S0.500,0nm)");
+  notes.push_back(
+      computed ? "fluorescence is left out: " + name_list(bands)
+               : "R, G, B are taken for its light, though it has what looks like bands of a spectrum (" +
+                     name_list(bands) + "), whose names are not those of spectral OpenEXR (S0.500,0nm)");
   return notes;
 }
 
 bool is_data(const Picture& picture, const ImageRequest& request) {
   if (!request.layer.empty()) return false;
-  return (are_data(picture.colour) && !request.colourspace) || (is_data_name(picture.name) && !is_beauty_name(picture.name));
+  return (are_data(picture.colour) && !request.colourspace) ||
+         (is_data_name(picture.name) && !is_beauty_name(picture.name));
 }
 
 }  // namespace
@@ -161,7 +172,8 @@ FoundLight find_light(const PixelSource& source, const ColourConfig& config, con
       data.push_back(are_data(picture.colour) ? "colorInteropID " + picture.colour.interop_id : picture.name);
       continue;
     }
-    const bool part_chosen = !request.layer.empty() && (picture.name == request.layer || picture.view == request.layer);
+    const bool part_chosen =
+        !request.layer.empty() && (picture.name == request.layer || picture.view == request.layer);
     LightPicture light;
     light.index = i;
     light.channels = colour_of(source, i, part_chosen ? "" : request.layer, ambiguous);

@@ -30,8 +30,10 @@ test::Run run(const std::vector<FlatPart>& parts, std::vector<std::string> more 
 bool says(const test::Run& run, const std::string& text) { return run.err.find(text) != std::string::npos; }
 
 TEST(Channels, parts_of_data_keep_their_bits) {
-  for (const char* name : {"crypto_object00", "normals", "depth", "VRayVelocity", "IndexOB", "Pworld", "objectId", "motionvector"}) {
-    const test::Run done = run({{"beauty", colours("", 0.4f, 0.2f, 0.1f)}, {name, colours("", 0.3f, -0.2f, 7)}});
+  for (const char* name : {"crypto_object00", "normals", "depth", "VRayVelocity", "IndexOB", "Pworld",
+                           "objectId", "motionvector"}) {
+    const test::Run done =
+        run({{"beauty", colours("", 0.4f, 0.2f, 0.1f)}, {name, colours("", 0.3f, -0.2f, 7)}});
     ASSERT_EQ(done.exit_code, 0) << done.err;
     EXPECT_TRUE(says(done, name)) << done.err;
     EXPECT_EQ(test::pixel_of(test::place("out.exr"), rgb, 1), (std::vector<float>{0.3f, -0.2f, 7})) << name;
@@ -42,7 +44,8 @@ TEST(Channels, parts_of_data_keep_their_bits) {
 TEST(Channels, data_are_not_metered) {
   const auto adaptation = [](const std::vector<FlatPart>& parts) {
     test::write_flat_exr(test::place("in.exr"), parts);
-    const test::Run done = test::apply(test::place("in.exr"), test::place("out.exr"), {"--adaptation", "auto", "--white-luminance", "1"});
+    const test::Run done = test::apply(test::place("in.exr"), test::place("out.exr"),
+                                       {"--adaptation", "auto", "--white-luminance", "1"});
     EXPECT_EQ(done.exit_code, 0) << done.err;
     return test::float_attribute(test::place("out.exr"), "scotopic:adaptation");
   };
@@ -61,7 +64,8 @@ TEST(Channels, a_file_of_several_beauties_is_refused_with_their_names) {
   const test::Run done = run({{"key", colours("", 1, 1, 1)}, {"fill", colours("", 1, 1, 1)}});
   EXPECT_EQ(done.exit_code, 2);
   EXPECT_TRUE(says(done, "key, fill") && says(done, "--layer")) << done.err;
-  EXPECT_EQ(run({{"key", colours("", 1, 1, 1)}, {"fill", colours("", 1, 1, 1)}}, {"--layer", "fill"}).exit_code, 0);
+  EXPECT_EQ(
+      run({{"key", colours("", 1, 1, 1)}, {"fill", colours("", 1, 1, 1)}}, {"--layer", "fill"}).exit_code, 0);
 }
 
 TEST(Channels, of_passes_the_one_with_the_name_of_a_beauty_is_the_light) {
@@ -76,7 +80,10 @@ TEST(Channels, of_passes_the_one_with_the_name_of_a_beauty_is_the_light) {
 
 TEST(Channels, both_views_of_stereo_parts_are_light) {
   const auto view = [](const char* name) { return [=](Imf::Header& h) { h.setView(name); }; };
-  ASSERT_EQ(run({{"a", colours("", 0.4f, 0.2f, 0.1f), view("left")}, {"b", colours("", 0.4f, 0.2f, 0.1f), view("right")}}).exit_code, 0);
+  ASSERT_EQ(run({{"a", colours("", 0.4f, 0.2f, 0.1f), view("left")},
+                 {"b", colours("", 0.4f, 0.2f, 0.1f), view("right")}})
+                .exit_code,
+            0);
   EXPECT_EQ(test::pixel_of(test::place("out.exr"), rgb, 0), test::pixel_of(test::place("out.exr"), rgb, 1));
   EXPECT_NE(test::pixel_of(test::place("out.exr"), rgb, 0)[0], 0.4f);
 }
@@ -91,9 +98,8 @@ TEST(Channels, the_other_view_of_a_single_part_is_said_to_stay) {
 }
 
 TEST(Channels, colours_by_other_names_are_found) {
-  const std::vector<std::vector<std::string>> names = {{"red", "green", "blue"},
-                                                       {"beauty.red", "beauty.green", "beauty.blue"},
-                                                       {"r", "g", "b"}};
+  const std::vector<std::vector<std::string>> names = {
+      {"red", "green", "blue"}, {"beauty.red", "beauty.green", "beauty.blue"}, {"r", "g", "b"}};
   for (const std::vector<std::string>& n : names) {
     ASSERT_EQ(run({{"", {{n[0], 0.4f}, {n[1], 0.2f}, {n[2], 0.1f}}}}).exit_code, 0) << n[0];
     EXPECT_NE(test::pixel_of(test::place("out.exr"), {n[0]})[0], 0.4f) << n[0];

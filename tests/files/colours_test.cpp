@@ -27,15 +27,18 @@ Rgb light(const std::string& in, std::vector<std::string> more = {}, const std::
 }
 
 void expect_near(const Rgb& got, const Rgb& wanted, double tolerance, const std::string& what) {
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(got[i], wanted[i], tolerance) << what << ", component " << i;
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(got[i], wanted[i], tolerance) << what << ", component " << i;
 }
 
 test::Chunk gamma_chunk(std::uint32_t value) { return {"gAMA", test::big_endian(value)}; }
 test::Chunk code_points(int primaries, int transfer, int range = 1) {
-  return {"cICP", std::string({static_cast<char>(primaries), static_cast<char>(transfer), 0, static_cast<char>(range)})};
+  return {"cICP", std::string({static_cast<char>(primaries), static_cast<char>(transfer), 0,
+                               static_cast<char>(range)})};
 }
-const test::Chunk adobe_chrm = {"cHRM", test::big_endian(31270) + test::big_endian(32900) + test::big_endian(64000) +
-                                            test::big_endian(33000) + test::big_endian(21000) + test::big_endian(71000) +
+const test::Chunk adobe_chrm = {"cHRM", test::big_endian(31270) + test::big_endian(32900) +
+                                            test::big_endian(64000) + test::big_endian(33000) +
+                                            test::big_endian(21000) + test::big_endian(71000) +
                                             test::big_endian(15000) + test::big_endian(6000)};
 // Green of Adobe RGB (1998) in linear BT.709: columns of the two matrices, both of white D65.
 const Rgb adobe_green = {-0.39836, 1.00000, -0.04293};
@@ -70,8 +73,10 @@ struct NamedSpace {
 };
 
 TEST(Colours, identifiers_of_the_color_interop_forum_are_understood) {
-  // Light of BT.709: matrices from the primaries in the forum's tables, curves of 0.5: 2.2, 2.4, 1.8 powers, sRGB's.
-  const double srgb = std::pow((0.5 + 0.055) / 1.055, 2.4), g22 = std::pow(0.5, 2.2), g24 = std::pow(0.5, 2.4);
+  // Light of BT.709: matrices from the primaries in the forum's tables, curves of 0.5: 2.2, 2.4, 1.8 powers,
+  // sRGB's.
+  const double srgb = std::pow((0.5 + 0.055) / 1.055, 2.4), g22 = std::pow(0.5, 2.2),
+               g24 = std::pow(0.5, 2.4);
   const double adobe = std::pow(0.5, 563.0 / 256), g26 = std::pow(0.5, 2.6);
   const double pq = 92.2457, hlg = 1000 * std::pow(1.0 / 12, 1.2);  // cd/m2
   const std::vector<NamedSpace> spaces = {
@@ -107,7 +112,8 @@ TEST(Colours, identifiers_of_the_color_interop_forum_are_understood) {
   };
   const std::string file = test::place("in.exr");
   for (const NamedSpace& space : spaces) {
-    test::write_flat_exr(file, space.pixel, [&](Imf::Header& h) { h.insert("colorInteropID", Imf::StringAttribute(space.id)); });
+    test::write_flat_exr(file, space.pixel,
+                         [&](Imf::Header& h) { h.insert("colorInteropID", Imf::StringAttribute(space.id)); });
     expect_near(light(file, {}, space.id), space.wanted, 1e-4, space.id);
   }
 }
@@ -115,13 +121,15 @@ TEST(Colours, identifiers_of_the_color_interop_forum_are_understood) {
 TEST(Colours, identifiers_that_are_not_understood_are_refused_by_name) {
   const std::string file = test::place("in.exr");
   for (const char* id : {"ocio:arrilogc4_awg4_scene", "ocio:acescct_ap1_scene", "studio:secret", "data"}) {
-    test::write_flat_exr(file, {1, 1, 1}, [&](Imf::Header& h) { h.insert("colorInteropID", Imf::StringAttribute(id)); });
+    test::write_flat_exr(file, {1, 1, 1},
+                         [&](Imf::Header& h) { h.insert("colorInteropID", Imf::StringAttribute(id)); });
     const test::Run run = test::apply(file, test::place("out.exr"));
     EXPECT_EQ(run.exit_code, 3) << id << run.err;
     EXPECT_NE(run.err.find(id), std::string::npos) << run.err;
     EXPECT_EQ(test::apply(file, test::place("out.exr"), {"--colorspace", "ACEScg"}).exit_code, 0) << id;
   }
-  test::write_flat_exr(file, {1, 1, 1}, [&](Imf::Header& h) { h.insert("colorInteropID", Imf::StringAttribute("unknown")); });
+  test::write_flat_exr(file, {1, 1, 1},
+                       [&](Imf::Header& h) { h.insert("colorInteropID", Imf::StringAttribute("unknown")); });
   EXPECT_EQ(test::apply(file, test::place("out.exr")).exit_code, 0);
 }
 
@@ -132,7 +140,8 @@ TEST(Colours, the_container_flag_of_aces_holds_over_all_and_a_conflict_is_said) 
     h.insert("colorInteropID", Imf::StringAttribute("lin_rec709_scene"));
   });
   // ST 2065-1's red in BT.709.
-  expect_near(light(file, {}, "say different things of its colours"), {2.52169, -0.27648, -0.01538}, 2e-4, "AP0");
+  expect_near(light(file, {}, "say different things of its colours"), {2.52169, -0.27648, -0.01538}, 2e-4,
+              "AP0");
 }
 
 TEST(Colours, stale_tags_of_a_space_that_changed_are_gone) {
@@ -172,7 +181,8 @@ TEST(Colours, profiles_of_tiff_png_and_jpeg_are_applied) {
   test::write_bytes(test::place("in.png"), test::flat_png({0, 65535, 0}, {test::png_profile(profile)}));
   for (const char* name : {"in.tif", "in.png"})
     expect_near(light(test::place(name), {}, "ICC profile"), adobe_green, 2e-4, name);
-  expect_near(light(test::place("in.jpg"), {}, "ICC profile"), adobe_green, 8e-3, "JPEG");  // a code of 8 bits
+  expect_near(light(test::place("in.jpg"), {}, "ICC profile"), adobe_green, 8e-3,
+              "JPEG");  // a code of 8 bits
 }
 
 TEST(Colours, what_is_written_for_a_profile_reads_back_to_half_a_code) {
@@ -180,7 +190,10 @@ TEST(Colours, what_is_written_for_a_profile_reads_back_to_half_a_code) {
   test::write_bytes(test::place("adobe.icc"), profile);
   test::write_flat_exr(test::place("in.exr"), {0.3, 0.2, 0.1});
   for (const char* name : {"out.tif", "out.png"}) {
-    ASSERT_EQ(test::apply(test::place("in.exr"), test::place(name), {"--icc", test::place("adobe.icc"), "-d", "uint16"}).exit_code, 0);
+    ASSERT_EQ(test::apply(test::place("in.exr"), test::place(name),
+                          {"--icc", test::place("adobe.icc"), "-d", "uint16"})
+                  .exit_code,
+              0);
     // Half a code of 16 bits of gamma 2.2 at 0.1: 1e-5 of light.
     expect_near(light(test::place(name), {}, "ICC profile"), {0.3, 0.2, 0.1}, 2e-5, name);
   }
@@ -188,9 +201,11 @@ TEST(Colours, what_is_written_for_a_profile_reads_back_to_half_a_code) {
 
 TEST(Colours, any_linear_space_is_stated_in_what_is_written_and_reads_back) {
   test::write_flat_exr(test::place("in.exr"), {0.3, 0.2, 0.1});
-  for (const char* space : {"ACEScg", "Linear Rec.2020", "Linear P3-D65", "Linear Rec.709 (sRGB)", "CIE XYZ-D65"})
+  for (const char* space :
+       {"ACEScg", "Linear Rec.2020", "Linear P3-D65", "Linear Rec.709 (sRGB)", "CIE XYZ-D65"})
     for (const char* name : {"out.tif", "out.png", "out.exr"}) {
-      const std::vector<std::string> more = {"--output-colorspace", space, "-d", name == std::string("out.png") ? "uint16" : "float"};
+      const std::vector<std::string> more = {"--output-colorspace", space, "-d",
+                                             name == std::string("out.png") ? "uint16" : "float"};
       const test::Run run = test::apply(test::place("in.exr"), test::place(name), more);
       ASSERT_EQ(run.exit_code, 0) << run.err;
       expect_near(light(test::place(name)), {0.3, 0.2, 0.1}, 1e-4, std::string(space) + " in " + name);
@@ -209,7 +224,8 @@ TEST(Colours, chunks_of_png_are_understood) {
   expect_near(light(png(32768, {gamma_chunk(45455)})), grey(std::pow(v, 2.19998)), 1e-5, "gAMA .45455");
   expect_near(light(png(32768, {{"sRGB", std::string(1, '\0')}, gamma_chunk(45455)}), {}, "sRGB"),
               grey(std::pow((v + 0.055) / 1.055, 2.4)), 1e-5, "sRGB");
-  expect_near(light(png(32768, {code_points(1, 13)}), {}, "cICP"), grey(std::pow((v + 0.055) / 1.055, 2.4)), 1e-5, "cICP sRGB");
+  expect_near(light(png(32768, {code_points(1, 13)}), {}, "cICP"), grey(std::pow((v + 0.055) / 1.055, 2.4)),
+              1e-5, "cICP sRGB");
   expect_near(light(png(32768, {code_points(9, 8)})), grey(v), 1e-5, "cICP linear");
   // Narrow range: 16 bits of black 4096, white 60160.
   expect_near(light(png(60160, {code_points(1, 8, 0)})), grey(1), 1e-5, "narrow white");
@@ -220,21 +236,25 @@ TEST(Colours, chunks_of_png_are_understood) {
 
 TEST(Colours, pq_and_hlg_are_luminances_of_their_own) {
   const std::string file = test::place("in.png"), out = test::place("out.exr");
-  // ST 2084's EOTF of .5 is 92.2457 cd/m2; BT.2100 HLG of .5 is 1000 (1/12)^1.2, of .75 203 (BT.2408, table 1).
-  const std::vector<std::tuple<int, double, double>> cases = {{16, 0.5, 92.2457}, {18, 0.5, 50.69}, {18, 0.75, 203.1}};
+  // ST 2084's EOTF of .5 is 92.2457 cd/m2; BT.2100 HLG of .5 is 1000 (1/12)^1.2, of .75 203 (BT.2408, table
+  // 1).
+  const std::vector<std::tuple<int, double, double>> cases = {
+      {16, 0.5, 92.2457}, {18, 0.5, 50.69}, {18, 0.75, 203.1}};
   for (const auto& [transfer, value, luminance] : cases) {
     const auto code = static_cast<std::uint16_t>(std::lround(value * 65535));
     test::write_bytes(file, test::flat_png({code, code, code}, {code_points(9, transfer)}));
     ASSERT_EQ(test::apply(file, out, {"-d", "float"}).exit_code, 0);
     const double unit = test::float_attribute(out, "whiteLuminance");
     EXPECT_EQ(unit, 203);
-    EXPECT_NEAR(test::pixel_of(out, {"G"})[0] * unit, luminance, 2e-3 * luminance) << transfer << " " << value;
+    EXPECT_NEAR(test::pixel_of(out, {"G"})[0] * unit, luminance, 2e-3 * luminance)
+        << transfer << " " << value;
   }
 }
 
 TEST(Colours, code_points_that_are_not_rgb_or_not_known_are_refused) {
   const std::string file = test::place("in.png");
-  for (const auto& chunk : {code_points(3, 13), code_points(1, 3), code_points(2, 2), test::Chunk{"cICP", std::string("\x9\x10\x9\x1", 4)}}) {
+  for (const auto& chunk : {code_points(3, 13), code_points(1, 3), code_points(2, 2),
+                            test::Chunk{"cICP", std::string("\x9\x10\x9\x1", 4)}}) {
     test::write_bytes(file, test::flat_png({9, 9, 9}, {chunk}));
     const test::Run run = test::apply(file, test::place("out.exr"));
     EXPECT_EQ(run.exit_code, 3) << run.err;
@@ -247,7 +267,9 @@ TEST(Colours, straight_and_associated_alpha_are_the_same_light) {
   test::write_bytes(straight, test::flat_png({40000, 20000, 60000, 16384}, {gamma_chunk(100000)}));
   const double a = 16384.0 / 65535;
   const auto part = [&](double c) { return static_cast<float>(c / 65535 * a); };
-  test::write_flat_exr(associated, {{"", {{"R", part(40000)}, {"G", part(20000)}, {"B", part(60000)}, {"A", static_cast<float>(a)}}}});
+  test::write_flat_exr(
+      associated,
+      {{"", {{"R", part(40000)}, {"G", part(20000)}, {"B", part(60000)}, {"A", static_cast<float>(a)}}}});
   const std::vector<std::string> night = {"--adaptation", "0.05", "--white-luminance", "0.5", "-d", "float"};
   ASSERT_EQ(test::apply(straight, test::place("a.exr"), night).exit_code, 0);
   ASSERT_EQ(test::apply(associated, test::place("b.exr"), night).exit_code, 0);

@@ -1,5 +1,6 @@
 #include "files/made_files.h"
 
+#include <Imath/half.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -8,7 +9,6 @@
 #include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputPart.h>
 #include <OpenEXR/ImfPartType.h>
-#include <Imath/half.h>
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 #include <lcms2.h>
@@ -60,7 +60,8 @@ void write_flat_exr(const std::string& file, const std::vector<FlatPart>& parts)
                                                             : static_cast<const void*>(&channel.value);
       values[c].resize(side * side * size);
       for (std::size_t i = 0; i < side * side; ++i) std::memcpy(values[c].data() + i * size, value, size);
-      frame.insert(channel.name, Imf::Slice(made.type, values[c].data(), size, size * static_cast<std::size_t>(side / made.xSampling),
+      frame.insert(channel.name, Imf::Slice(made.type, values[c].data(), size,
+                                            size * static_cast<std::size_t>(side / made.xSampling),
                                             made.xSampling, made.ySampling));
     }
     Imf::OutputPart part(out, static_cast<int>(p));
@@ -71,7 +72,9 @@ void write_flat_exr(const std::string& file, const std::vector<FlatPart>& parts)
 
 void write_flat_exr(const std::string& file, const Rgb& rgb, const std::function<void(Imf::Header&)>& more) {
   write_flat_exr(file, {{"",
-                         {{"R", static_cast<float>(rgb[0])}, {"G", static_cast<float>(rgb[1])}, {"B", static_cast<float>(rgb[2])}},
+                         {{"R", static_cast<float>(rgb[0])},
+                          {"G", static_cast<float>(rgb[1])},
+                          {"B", static_cast<float>(rgb[2])}},
                          more}});
 }
 
@@ -84,7 +87,8 @@ std::string big_endian(std::uint32_t value, int bytes) {
 std::string packed(const std::string& bytes) {
   uLongf size = compressBound(bytes.size());
   std::string out(size, '\0');
-  compress(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+  compress(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+           bytes.size());
   out.resize(size);
   return out;
 }
@@ -129,16 +133,19 @@ std::string adobe_profile() {
   return out;
 }
 
-void write_flat_oiio(const std::string& file, const std::vector<float>& pixel, bool sixteen_bits, const std::string& profile,
-                     const std::vector<std::pair<std::string, int>>& attributes) {
-  OIIO::ImageSpec spec(8, 8, static_cast<int>(pixel.size()), sixteen_bits ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
+void write_flat_oiio(const std::string& file, const std::vector<float>& pixel, bool sixteen_bits,
+                     const std::string& profile, const std::vector<std::pair<std::string, int>>& attributes) {
+  OIIO::ImageSpec spec(8, 8, static_cast<int>(pixel.size()),
+                       sixteen_bits ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
   if (!profile.empty())
-    spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(profile.size())), profile.data());
+    spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(profile.size())),
+                   profile.data());
   for (const auto& [name, value] : attributes) spec.attribute(name, value);
   std::vector<float> pixels;
   for (int i = 0; i < 64; ++i) pixels.insert(pixels.end(), pixel.begin(), pixel.end());
   const auto out = OIIO::ImageOutput::create(file);
-  ASSERT_TRUE(out && out->open(file, spec) && out->write_image(OIIO::TypeDesc::FLOAT, pixels.data()) && out->close());
+  ASSERT_TRUE(out && out->open(file, spec) && out->write_image(OIIO::TypeDesc::FLOAT, pixels.data()) &&
+              out->close());
 }
 
 Run apply(const std::string& in, const std::string& out, std::vector<std::string> more) {
@@ -150,7 +157,8 @@ Run apply(const std::string& in, const std::string& out, std::vector<std::string
   return {outcome.exit_code, outcome.err};
 }
 
-std::vector<float> pixel_of(const std::string& file, const std::vector<std::string>& channels, int part, int x, int y) {
+std::vector<float> pixel_of(const std::string& file, const std::vector<std::string>& channels, int part,
+                            int x, int y) {
   Imf::MultiPartInputFile in(file.c_str());
   const Imath::Box2i box = in.header(part).dataWindow();
   const auto width = static_cast<std::size_t>(box.max.x - box.min.x + 1);
@@ -163,7 +171,8 @@ std::vector<float> pixel_of(const std::string& file, const std::vector<std::stri
   input.setFrameBuffer(frame);
   input.readPixels(box.min.y, box.max.y);
   std::vector<float> out;
-  for (const auto& plane : planes) out.push_back(plane[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)]);
+  for (const auto& plane : planes)
+    out.push_back(plane[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)]);
   return out;
 }
 
@@ -175,7 +184,8 @@ double float_attribute(const std::string& file, const std::string& name) {
 
 std::string place(const std::string& name) {
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  const auto folder = std::filesystem::path(::testing::TempDir()) / ("scotopic-files-" + std::to_string(getpid())) / test->name();
+  const auto folder = std::filesystem::path(::testing::TempDir()) /
+                      ("scotopic-files-" + std::to_string(getpid())) / test->name();
   std::filesystem::create_directories(folder);
   return (folder / name).string();
 }

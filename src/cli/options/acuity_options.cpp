@@ -93,19 +93,33 @@ AcuityChoice understand(const AcuityOptions& o) {
   return out;
 }
 
-AngularResolution angular_resolution(const AcuityChoice& choice, const PixelSource& source,
-                                     const ImageLayout& layout) {
+namespace {
+
+AngularResolution resolution_across(const AcuityChoice& choice, const PixelSource& source, const ImageLayout& layout) {
   if (choice.pixels_per_degree) return {*choice.pixels_per_degree, true, "--ppd"};
   const double width = display_width(source, layout);
   if (choice.field_of_view) return {pixels_per_degree(width, *choice.field_of_view), true, "--fov"};
   if (const std::optional<double> camera = camera_field_of_view(source, layout))
     return {pixels_per_degree(width, *camera), true,
             fmt::format("the camera's focal length, {:.3g} degrees wide", *camera)};
-  if (choice.panorama.value_or(is_lat_long(source, layout))) return {pixels_per_degree_of_panorama(width), true, "a panorama: 360 degrees wide"};
+  if (is_panorama(choice, source, layout)) return {pixels_per_degree_of_panorama(width), true, "a panorama: 360 degrees wide"};
   if (layout.night || layout.output_space.for_a_device())
     return {pixels_per_degree(width, assumed_degrees), true,
             fmt::format("assumed: the picture is {:g} degrees wide; --fov or --ppd tells", assumed_degrees)};
   return {60.0, false, "not known: --fov or --ppd tells"};
+}
+
+}  // namespace
+
+bool is_panorama(const AcuityChoice& choice, const PixelSource& source, const ImageLayout& layout) {
+  return choice.panorama.value_or(is_lat_long(source, layout));
+}
+
+AngularResolution angular_resolution(const AcuityChoice& choice, const PixelSource& source,
+                                     const ImageLayout& layout) {
+  AngularResolution out = resolution_across(choice, source, layout);
+  out.pixel_aspect = source.pictures()[layout.light.front().index].pixel_aspect;
+  return out;
 }
 
 std::unique_ptr<SpatialFilter> acuity_filter(const AcuityChoice& choice, const AppearanceParameters& scene,
@@ -115,6 +129,7 @@ std::unique_ptr<SpatialFilter> acuity_filter(const AcuityChoice& choice, const A
   const double ppd = resolution.pixels_per_degree, cutoff = acuity_cutoff(scene.adaptation);
   const std::string known = fmt::format("{:.3g} pixels per degree ({})", ppd, resolution.source);
   p.sigma = acuity_sigma_pixels(scene.adaptation, ppd);
+  p.pixel_aspect = resolution.pixel_aspect;
   p.white = scene.adaptation / 0.18 / scene.white_luminance;
   p.xyz_from_rgb = scene.xyz_from_rgb;
   console.note(fmt::format("acuity: {:.3g} cycles/degree are resolved, sigma {}{:.3g} pixels; {}", cutoff,

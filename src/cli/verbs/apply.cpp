@@ -110,7 +110,7 @@ void check_acuity_memory(const SpatialFilter& acuity, const PixelSource& source,
                          const Limits& limits) {
   for (const LightPicture& light : layout.light) {
     const Picture& picture = source.pictures()[light.index];
-    check_limit(source.file(), "bytes of memory planned", planned_bytes(picture) + acuity_bytes(acuity, picture),
+    check_limit(source.file(), "bytes of memory planned", planned_bytes(picture) + acuity_bytes(acuity, picture, layout.wraps),
                 limits.memory, "--max-memory");
   }
 }
@@ -178,6 +178,7 @@ ApplyJob::Seen ApplyJob::look(const FramePaths& paths, const Console& console) c
   choice.parameters.adaptation = frame.numbers.adaptation;
   choice.parameters.white_luminance = frame.numbers.white_luminance;
   frame.resolution = angular_resolution(settings_.acuity, source, scene.layout);
+  scene.layout.wraps = is_panorama(settings_.acuity, source, scene.layout);
   const PlanRequest request = plan_request(choice, settings_.acuity, frame.resolution);
   if (request.acuity && !frame.resolution.known)
     throw Error(ExitCode::usage, source.file(), "detail needs pixels per degree, which are not known: --fov or --ppd");

@@ -32,8 +32,16 @@ const std::map<int, TransferCurve>& curves_by_code() {
   // Of 1, 6, 14 and 15 the table has the camera's side; what a display makes of them is BT.1886.
   static const TransferCurve bt1886{Transfer::power, 2.4};
   static const std::map<int, TransferCurve> known = {
-      {1, bt1886},  {4, {Transfer::power, 2.2}}, {5, {Transfer::power, 2.8}}, {6, bt1886},        {8, {}},
-      {13, {Transfer::srgb}}, {14, bt1886},      {15, bt1886},                {16, {Transfer::pq}}, {17, {Transfer::dcdm}},
+      {1, bt1886},
+      {4, {Transfer::power, 2.2}},
+      {5, {Transfer::power, 2.8}},
+      {6, bt1886},
+      {8, {}},
+      {13, {Transfer::srgb}},
+      {14, bt1886},
+      {15, bt1886},
+      {16, {Transfer::pq}},
+      {17, {Transfer::dcdm}},
       {18, {Transfer::hlg}},
   };
   return known;
@@ -51,7 +59,8 @@ RgbEncoding encoding_of(const CodePoints& points, int bits, const std::string& f
   if (points.matrix != 0) fail(fmt::format("cICP matrix {} is not RGB", points.matrix));
   if (primaries == primaries_by_code().end() && points.primaries != 10)
     fail(fmt::format("cICP colour primaries {} are not read here", points.primaries));
-  if (curve == curves_by_code().end()) fail(fmt::format("cICP transfer function {} is not read here", points.transfer));
+  if (curve == curves_by_code().end())
+    fail(fmt::format("cICP transfer function {} is not read here", points.transfer));
   if (points.primaries != 10) out.xyz_from_rgb = xyz_d65_from_rgb(primaries->second);
   out.curve = curve->second;
   if (!points.full_range) {

@@ -41,12 +41,15 @@ std::optional<Statement> by_id(const std::string& id, const std::string& file, c
     const std::string camera = camera_curve(name);
     if (!camera.empty())
       throw Error(ExitCode::input, file,
-                  fmt::format("colorInteropID '{}' is {}: camera and log curves are not read here yet{}", id, camera, say_it));
+                  fmt::format("colorInteropID '{}' is {}: camera and log curves are not read here yet{}", id,
+                              camera, say_it));
     if (config.has_space(name)) return Statement{config.space(name), reason};
   }
-  throw Error(ExitCode::input, file,
-              fmt::format("colorInteropID '{}' is neither one of the Color Interop Forum's nor a space of the config{}", id,
-                          say_it));
+  throw Error(
+      ExitCode::input, file,
+      fmt::format(
+          "colorInteropID '{}' is neither one of the Color Interop Forum's nor a space of the config{}", id,
+          say_it));
 }
 
 void require_usable(const Primaries& primaries, const std::string& file) {
@@ -59,8 +62,9 @@ std::optional<Statement> by_primaries(const ColourTags& tags, const std::string&
   if (!tags.primaries) return std::nullopt;
   if (are_cie_xyz(*tags.primaries)) {
     const Xy white = tags.adopted_neutral.value_or(white_d65);
-    return Statement{{"CIE XYZ", bradford(white, white_d65)},
-                     tags.adopted_neutral ? "the file's chromaticities and neutral" : "the file's chromaticities"};
+    return Statement{
+        {"CIE XYZ", bradford(white, white_d65)},
+        tags.adopted_neutral ? "the file's chromaticities and neutral" : "the file's chromaticities"};
   }
   require_usable(*tags.primaries, file);
   const NamedPrimaries* known = match_primaries(*tags.primaries);
@@ -72,7 +76,8 @@ std::optional<Statement> by_primaries(const ColourTags& tags, const std::string&
                    integer ? "the file's chromaticities, with sRGB's curve" : "the file's chromaticities"};
 }
 
-std::optional<Statement> by_gamma(const ColourTags& tags, const std::string& file, const ColourConfig& config) {
+std::optional<Statement> by_gamma(const ColourTags& tags, const std::string& file,
+                                  const ColourConfig& config) {
   if (!tags.gamma) return std::nullopt;
   if (tags.primaries) require_usable(*tags.primaries, file);
   if (!(*tags.gamma > 0.1 && *tags.gamma < 10))
@@ -84,8 +89,9 @@ std::optional<Statement> by_gamma(const ColourTags& tags, const std::string& fil
                           : tags.primaries ? xyz_d65_from_rgb(*tags.primaries)
                                            : gamut_xyz_matrix("rec709").value();
   const std::string of = known || !tags.primaries ? "" : ", the file's chromaticities";
-  return Statement{space_of(encoding, describe(encoding.curve) + of, config),
-                   fmt::format("the file's gAMA {:.5g}{}", 1 / *tags.gamma, tags.primaries ? " and cHRM" : "")};
+  return Statement{
+      space_of(encoding, describe(encoding.curve) + of, config),
+      fmt::format("the file's gAMA {:.5g}{}", 1 / *tags.gamma, tags.primaries ? " and cHRM" : "")};
 }
 
 std::optional<Statement> by_profile(const ColourTags& tags, const std::string& file) {
@@ -110,16 +116,19 @@ std::vector<Statement> statements(const ColourTags& tags, const std::string& fil
     if (s) out.push_back(std::move(*s));
   };
   if (tags.aces_container)
-    add(Statement{space_of(interop_encoding("lin_ap0_scene").value(), "ACES2065-1", config), "the file's acesImageContainerFlag"});
+    add(Statement{space_of(interop_encoding("lin_ap0_scene").value(), "ACES2065-1", config),
+                  "the file's acesImageContainerFlag"});
   add(by_id(tags.interop_id, file, config));
   if (tags.code_points) {
     const RgbEncoding encoding = encoding_of(*tags.code_points, bits, file);
-    const std::string name = fmt::format("{}, primaries {} of H.273", describe(encoding.curve), tags.code_points->primaries);
+    const std::string name =
+        fmt::format("{}, primaries {} of H.273", describe(encoding.curve), tags.code_points->primaries);
     add(Statement{space_of(encoding, name, config), "the file's cICP"});
   }
   add(by_profile(tags, file));
   if (tags.srgb) {
-    add(Statement{space_of(interop_encoding("srgb_rec709_scene").value(), "sRGB", config), "the file's sRGB chunk"});
+    add(Statement{space_of(interop_encoding("srgb_rec709_scene").value(), "sRGB", config),
+                  "the file's sRGB chunk"});
   } else if (tags.gamma) {
     // gAMA and cHRM belong together.
     add(by_gamma(tags, file, config));
@@ -161,8 +170,8 @@ FileColour colour_of_file(const ColourTags& tags, const std::string& file, bool 
   out.reason = stated.front().reason;
   for (std::size_t i = 1; i < stated.size(); ++i)
     if (!agree(out.space, stated[i].space, config))
-      out.notes.push_back(fmt::format("{} and {} say different things of its colours: the former holds", out.reason,
-                                      stated[i].reason));
+      out.notes.push_back(fmt::format("{} and {} say different things of its colours: the former holds",
+                                      out.reason, stated[i].reason));
   return out;
 }
 

@@ -45,12 +45,14 @@ cmsToneCurve* tone_curve(cmsContext context, const TransferCurve& curve) {
 
 bool write_text(const Made& made, cmsTagSignature tag, const std::string& text) {
   cmsMLU* const words = cmsMLUalloc(made.context, 1);
-  const bool done = words && cmsMLUsetASCII(words, "en", "US", text.c_str()) && cmsWriteTag(made.profile, tag, words);
+  const bool done =
+      words && cmsMLUsetASCII(words, "en", "US", text.c_str()) && cmsWriteTag(made.profile, tag, words);
   if (words) cmsMLUfree(words);
   return done;
 }
 
-/// A display profile of matrix and curve (ICC.1:2001-04, 6.3.2.2): written by hand, as CIE XYZ has primaries of y = 0.
+/// A display profile of matrix and curve (ICC.1:2001-04, 6.3.2.2): written by hand, as CIE XYZ has primaries
+/// of y = 0.
 bool fill_profile(const Made& made, const Matrix3<double>& d50_from_rgb, const std::string& name) {
   cmsSetProfileVersion(made.profile, 2.4);
   cmsSetDeviceClass(made.profile, cmsSigDisplayClass);
@@ -63,7 +65,8 @@ bool fill_profile(const Made& made, const Matrix3<double>& d50_from_rgb, const s
               cmsWriteTag(made.profile, cmsSigMediaWhitePointTag, cmsD50_XYZ());
   for (std::size_t c = 0; c < 3; ++c) {
     const cmsCIEXYZ xyz = {d50_from_rgb[0][c], d50_from_rgb[1][c], d50_from_rgb[2][c]};
-    done = done && cmsWriteTag(made.profile, colorants[c], &xyz) && cmsWriteTag(made.profile, curves[c], made.curve);
+    done = done && cmsWriteTag(made.profile, colorants[c], &xyz) &&
+           cmsWriteTag(made.profile, curves[c], made.curve);
   }
   return done;
 }
@@ -72,7 +75,8 @@ std::shared_ptr<const Bytes> shared(Bytes bytes) {
   return bytes.empty() ? nullptr : std::make_shared<const Bytes>(std::move(bytes));
 }
 
-std::shared_ptr<const Bytes> profile_of(const ColourSpace& space, const std::optional<Matrix3<double>>& linear) {
+std::shared_ptr<const Bytes> profile_of(const ColourSpace& space,
+                                        const std::optional<Matrix3<double>>& linear) {
   if (space.profile) return shared(space.profile->bytes());
   if (space.embedded) return shared(space.embedded->bytes());
   if (linear) return shared(make_profile({}, *linear));
@@ -94,7 +98,8 @@ Bytes make_profile(const TransferCurve& curve, const Matrix3<double>& xyz_from_r
   made.curve = tone_curve(made.context, curve);
   if (!made.curve) return {};
   made.profile = cmsCreateProfilePlaceholder(made.context);
-  if (!made.profile || !fill_profile(made, bradford(white_d65, icc_d50) * xyz_from_rgb, describe(curve))) return {};
+  if (!made.profile || !fill_profile(made, bradford(white_d65, icc_d50) * xyz_from_rgb, describe(curve)))
+    return {};
   cmsUInt32Number size = 0;
   if (!cmsSaveProfileToMem(made.profile, nullptr, &size)) return {};
   Bytes out(size);

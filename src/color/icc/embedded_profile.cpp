@@ -44,7 +44,8 @@ struct EmbeddedProfile::Handles {
 EmbeddedProfile::EmbeddedProfile(std::vector<std::byte> bytes, const std::string& file)
     : bytes_(std::move(bytes)), handles_(std::make_unique<Handles>()) {
   const auto fail = [&](const std::string& what) { throw Error(ExitCode::input, file, what); };
-  if (const std::string fault = fault_of_icc(bytes_); !fault.empty()) fail("its ICC profile is damaged: " + fault);
+  if (const std::string fault = fault_of_icc(bytes_); !fault.empty())
+    fail("its ICC profile is damaged: " + fault);
   Handles& h = *handles_;
   h.device = cmsOpenProfileFromMemTHR(h.context, bytes_.data(), static_cast<cmsUInt32Number>(bytes_.size()));
   if (!h.device) fail("its ICC profile is damaged");

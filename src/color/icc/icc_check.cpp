@@ -83,7 +83,8 @@ bool fits_table(Bytes tag, std::uint64_t width) {
   const std::uint64_t in = u8(tag, 8), out = u8(tag, 9), grid = u8(tag, 10);
   const bool wide = width == 2;
   const std::size_t start = wide ? 52 : 48;
-  if (tag.size() < start || in == 0 || out == 0 || in > most_channels || out > most_channels || grid == 1) return false;
+  if (tag.size() < start || in == 0 || out == 0 || in > most_channels || out > most_channels || grid == 1)
+    return false;
   const std::uint64_t entries_in = wide ? u16(tag, 48) : 256, entries_out = wide ? u16(tag, 50) : 256;
   if (entries_in < 2 || entries_out < 2 || entries_in > 4096 || entries_out > 4096) return false;
   const std::uint64_t room = tag.size() - start;
@@ -107,9 +108,11 @@ bool fits_lattice(Bytes tag, std::uint32_t offset, std::uint64_t in, std::uint64
 bool fits_stages(Bytes tag, bool forward) {
   const std::uint64_t in = u8(tag, 8), out = u8(tag, 9);
   if (tag.size() < 32 || in == 0 || out == 0 || in > most_channels || out > most_channels) return false;
-  const std::uint32_t b = u32(tag, 12), matrix = u32(tag, 16), m = u32(tag, 20), clut = u32(tag, 24), a = u32(tag, 28);
+  const std::uint32_t b = u32(tag, 12), matrix = u32(tag, 16), m = u32(tag, 20), clut = u32(tag, 24),
+                      a = u32(tag, 28);
   const std::uint64_t connection = forward ? out : in, device = forward ? in : out;
-  return (b == 0 || fits_curves(tag, b, connection)) && (matrix == 0 || std::uint64_t{matrix} + 48 <= tag.size()) &&
+  return (b == 0 || fits_curves(tag, b, connection)) &&
+         (matrix == 0 || std::uint64_t{matrix} + 48 <= tag.size()) &&
          (m == 0 || fits_curves(tag, m, connection)) && (clut == 0 || fits_lattice(tag, clut, in, out)) &&
          (a == 0 || fits_curves(tag, a, device));
 }
@@ -197,7 +200,8 @@ std::string fault_of_icc(Bytes profile) {
   const std::uint32_t size = u32(profile, 0);
   if (size < header_size + 4 || size > profile.size())
     return fmt::format("it says it has {} bytes, and has {}", size, profile.size());
-  if (u8(profile, 8) > 4) return fmt::format("it is of version {}, of which 2 to 4 can be read", u8(profile, 8));
+  if (u8(profile, 8) > 4)
+    return fmt::format("it is of version {}, of which 2 to 4 can be read", u8(profile, 8));
   return fault_of_tags(profile.first(size));
 }
 

@@ -170,6 +170,7 @@ void ExrSource::add_pictures(int part) {
   Picture picture;
   picture.part = part;
   picture.name = header.hasName() ? header.name() : "";
+  picture.pixel_aspect = usable_aspect(static_cast<double>(header.pixelAspectRatio()));
   picture.view = header.hasView() ? header.view() : "";
   picture.data = window_of(header.dataWindow());
   picture.display = window_of(header.displayWindow());

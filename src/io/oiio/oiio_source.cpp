@@ -118,6 +118,8 @@ void OiioSource::add_picture(int page, const OIIO::ImageSpec& spec) {
   // Of Radiance's order of pixels OpenImageIO tells by the same name.
   scan.orientation = spec.get_int_attribute("Orientation", scan.orientation);
   if (scan.orientation < 1 || scan.orientation > 8) scan.orientation = 1;
+  picture.pixel_aspect = usable_aspect(static_cast<double>(spec.get_float_attribute("PixelAspectRatio", 1.0f)));
+  if (turns(scan.orientation)) picture.pixel_aspect = 1 / picture.pixel_aspect;
   set_colour(picture, scan);
   set_upright(picture, scan);
   pictures_.push_back(picture);

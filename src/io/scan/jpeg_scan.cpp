@@ -26,8 +26,8 @@ std::span<const std::byte> after(const Bytes& segment, std::string_view head) {
 
 using namespace std::string_view_literals;
 
-constexpr std::string_view exif = "Exif\0\0"sv, xmp = "http://ns.adobe.com/xap/1.0/\0"sv, icc = "ICC_PROFILE\0"sv,
-                           gain_map = "urn:iso:std:iso:ts:21496:-1\0"sv;
+constexpr std::string_view exif = "Exif\0\0"sv, xmp = "http://ns.adobe.com/xap/1.0/\0"sv,
+                           icc = "ICC_PROFILE\0"sv, gain_map = "urn:iso:std:iso:ts:21496:-1\0"sv;
 
 /// Frame headers: all SOF but those of tables (DHT, JPG, DAC).
 bool is_frame(std::uint64_t marker) {
@@ -51,19 +51,22 @@ ImageScan scan_jpeg(const std::string& file) {
     const Bytes head = bytes.at(at, 4);
     const std::uint64_t marker = number_at(head, 1, 1, true), size = number_at(head, 2, 2, true);
     if (head[0] != std::byte{0xff} || marker == 0xda || marker == 0xd9) break;
-    if (marker == 0xff || marker == 0x01 || (marker >= 0xd0 && marker <= 0xd8)) {  // fill bytes, and markers alone
+    if (marker == 0xff || marker == 0x01 ||
+        (marker >= 0xd0 && marker <= 0xd8)) {  // fill bytes, and markers alone
       at += marker == 0xff ? 1 : 2;
       continue;
     }
     if (size < 2) break;
-    const Bytes segment = marker == app1 || marker == app2 || is_frame(marker) ? bytes.at(at + 4, size - 2) : Bytes{};
+    const Bytes segment =
+        marker == app1 || marker == app2 || is_frame(marker) ? bytes.at(at + 4, size - 2) : Bytes{};
     if (is_frame(marker) && number_at(segment, 5, 1, true) == 4)
       throw Error(ExitCode::input, file, "holds CMYK, not RGB: convert it first, with its profile");
     if (marker == app1 && begins(segment, exif)) read_exif(after(segment, exif), scan);
     if (marker == app1 && begins(segment, xmp)) check_xmp(after(segment, xmp), file, scan);
     if (marker == app2 && begins(segment, gain_map)) scan.gain_map = true;
     if (marker == app2 && begins(segment, icc) && segment.size() >= icc.size() + 2)
-      profile.emplace(number_at(segment, icc.size(), 1, true), Bytes(segment.begin() + icc.size() + 2, segment.end()));
+      profile.emplace(number_at(segment, icc.size(), 1, true),
+                      Bytes(segment.begin() + icc.size() + 2, segment.end()));
     at += 2 + size;
   }
   if (!profile.empty()) keep_profile(joined(profile), file, scan);

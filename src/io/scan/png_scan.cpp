@@ -99,7 +99,8 @@ void read_chunk(const std::string& type, const Bytes& chunk, const std::string& 
 }  // namespace
 
 ImageScan scan_png(const std::string& file) {
-  static constexpr std::string_view wanted[] = {"iCCP", "cICP", "gAMA", "cHRM", "sRGB", "eXIf", "tEXt", "zTXt", "iTXt"};
+  static constexpr std::string_view wanted[] = {"iCCP", "cICP", "gAMA", "cHRM", "sRGB",
+                                                "eXIf", "tEXt", "zTXt", "iTXt"};
   ImageScan scan;
   FileBytes bytes(file);
   for (std::uint64_t at = signature_size; at + 12 <= bytes.size();) {
@@ -108,7 +109,8 @@ ImageScan scan_png(const std::string& file) {
     const std::string type(reinterpret_cast<const char*>(head.data()) + 4, 4);
     if (type == "IEND") break;
     if (std::find(std::begin(wanted), std::end(wanted), type) != std::end(wanted)) {
-      if (size > most_chunk_bytes) throw Error(ExitCode::input, file, "is damaged: a chunk " + type + " is larger than any");
+      if (size > most_chunk_bytes)
+        throw Error(ExitCode::input, file, "is damaged: a chunk " + type + " is larger than any");
       read_chunk(type, bytes.at(at + 8, size), file, scan);
     }
     at += size + 12;

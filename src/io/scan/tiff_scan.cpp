@@ -62,22 +62,26 @@ class Directories {
                   number_at(all, at + 4, static_cast<std::size_t>(offset), big_endian_), 0};
       const std::uint64_t inside = directory + count_size + i * entry + 4 + offset;
       const bool fits = field.count <= offset && size_of_type(field.type) * field.count <= offset;
-      field.at = fits ? inside : number_at(all, at + 4 + static_cast<std::size_t>(offset), static_cast<std::size_t>(offset), big_endian_);
+      field.at = fits ? inside
+                      : number_at(all, at + 4 + static_cast<std::size_t>(offset),
+                                  static_cast<std::size_t>(offset), big_endian_);
       out.push_back(field);
     }
-    next = number_at(all, static_cast<std::size_t>(count * entry), static_cast<std::size_t>(offset), big_endian_);
+    next = number_at(all, static_cast<std::size_t>(count * entry), static_cast<std::size_t>(offset),
+                     big_endian_);
     return out;
   }
 
   Bytes bytes(const Field& field) const {
-    return read_(field.at, std::min(std::min(field.count, most_value) * std::max<std::uint64_t>(1, size_of_type(field.type)), most_value));
+    return read_(field.at, std::min(std::min(field.count, most_value) *
+                                        std::max<std::uint64_t>(1, size_of_type(field.type)),
+                                    most_value));
   }
 
   /// Value `i` of an integer or rational field.
   double value(const Field& field, std::size_t i = 0) const {
     const std::uint64_t size = size_of_type(field.type);
-    if (field.type == 5)
-      return ratio(number(field.at + 8 * i, 4), number(field.at + 8 * i + 4, 4));
+    if (field.type == 5) return ratio(number(field.at + 8 * i, 4), number(field.at + 8 * i + 4, 4));
     return static_cast<double>(number(field.at + size * i, size));
   }
 
@@ -105,7 +109,8 @@ void read_exif_directory(const Directories& tiff, std::uint64_t directory, Image
       if (value == 2) scan.colour.exif = ExifColour::adobe_rgb;
     }
     if (field.tag == interoperability_directory)
-      for (const Directories::Field& inner : tiff.fields(static_cast<std::uint64_t>(tiff.value(field)), next)) {
+      for (const Directories::Field& inner :
+           tiff.fields(static_cast<std::uint64_t>(tiff.value(field)), next)) {
         const Bytes index = inner.tag == interoperability_index ? tiff.bytes(inner) : Bytes{};
         const bool r03 = index.size() >= 3 && index[0] == std::byte{'R'} && index[2] == std::byte{'3'};
         if (r03 && uncalibrated) scan.colour.exif = ExifColour::adobe_rgb;
@@ -114,14 +119,15 @@ void read_exif_directory(const Directories& tiff, std::uint64_t directory, Image
 }
 
 void require_rgb(int value, const std::string& file) {
-  const char* const what = value == 5                        ? "CMYK"
-                           : value >= 8 && value <= 10       ? "CIE Lab"
+  const char* const what = value == 5                         ? "CMYK"
+                           : value >= 8 && value <= 10        ? "CIE Lab"
                            : value == 32844 || value == 32845 ? "LogLuv"
-                                                             : nullptr;
+                                                              : nullptr;
   if (what) throw Error(ExitCode::input, file, std::string("holds ") + what + ", not RGB: convert it first");
 }
 
-ImageScan scan_directory(const Directories& tiff, const std::vector<Directories::Field>& fields, const std::string& file) {
+ImageScan scan_directory(const Directories& tiff, const std::vector<Directories::Field>& fields,
+                         const std::string& file) {
   ImageScan scan;
   std::optional<Xy> white;
   std::optional<Primaries> primaries;
@@ -130,10 +136,12 @@ ImageScan scan_directory(const Directories& tiff, const std::vector<Directories:
     if (field.tag == photometric) require_rgb(static_cast<int>(tiff.value(field)), file);
     if (field.tag == orientation) scan.orientation = static_cast<int>(tiff.value(field));
     if (field.tag == white_point && field.count == 2) white = xy(0);
-    if (field.tag == primary_chromaticities && field.count == 6) primaries = Primaries{xy(0), xy(1), xy(2), {}};
+    if (field.tag == primary_chromaticities && field.count == 6)
+      primaries = Primaries{xy(0), xy(1), xy(2), {}};
     if (field.tag == xmp) check_xmp(tiff.bytes(field), file, scan);
     if (field.tag == icc_profile) keep_profile(tiff.bytes(field), file, scan);
-    if (field.tag == exif_directory) read_exif_directory(tiff, static_cast<std::uint64_t>(tiff.value(field)), scan);
+    if (field.tag == exif_directory)
+      read_exif_directory(tiff, static_cast<std::uint64_t>(tiff.value(field)), scan);
   }
   if (primaries && white) {
     primaries->white = *white;
@@ -160,12 +168,14 @@ void read_exif(std::span<const std::byte> block, ImageScan& scan) {
   const Directories tiff([&](std::uint64_t at, std::uint64_t count) {
     if (at >= block.size()) return Bytes{};
     const auto piece = block.subspan(static_cast<std::size_t>(at));
-    return Bytes(piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(count, piece.size())));
+    return Bytes(piece.begin(),
+                 piece.begin() + static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(count, piece.size())));
   });
   std::uint64_t next = 0;
   for (const Directories::Field& field : tiff.fields(tiff.first(), next)) {
     if (field.tag == orientation) scan.orientation = static_cast<int>(tiff.value(field));
-    if (field.tag == exif_directory) read_exif_directory(tiff, static_cast<std::uint64_t>(tiff.value(field)), scan);
+    if (field.tag == exif_directory)
+      read_exif_directory(tiff, static_cast<std::uint64_t>(tiff.value(field)), scan);
   }
 }
 
