@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <span>
 #include <vector>
@@ -120,12 +121,10 @@ class Walk {
   /// OpenColorIO reads profiles, too.
   static void check_icc_file(const std::string& file) {
     std::ifstream in(file, std::ios::binary);
-    std::vector<char> bytes(most_icc_bytes + 1);
-    in.read(bytes.data(), 132);
-    const auto start = static_cast<std::size_t>(in.gcount());
-    if (!is_icc(std::as_bytes(std::span(bytes).first(start)))) return;
-    in.read(bytes.data() + start, static_cast<std::streamsize>(bytes.size() - start));
-    bytes.resize(start + static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));
+    std::vector<char> bytes(132);
+    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (!in || !is_icc(std::as_bytes(std::span(bytes)))) return;
+    bytes.insert(bytes.end(), std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
     const std::string fault = fault_of_icc(std::as_bytes(std::span(bytes)));
     if (!fault.empty()) throw Error(ExitCode::config, file, "is damaged: " + fault);
   }
