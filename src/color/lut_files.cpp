@@ -115,7 +115,21 @@ class Walk {
     if (stat(file.c_str(), &info) != 0) return;
     (void)check_input_file(file, ExitCode::config, limits_.lut, "--max-lut-size");
     check_icc_file(file);
+    check_csp_file(file);
     try_lut_file(file);
+  }
+
+  /// OpenColorIO 2.1 looks for the end of a csp's metadata beyond that of the file, for ever.
+  static void check_csp_file(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    bool open = false;
+    std::string line;
+    if (!std::getline(in, line) || line.rfind("CSPLUTV100", 0) != 0) return;
+    while (std::getline(in, line)) {
+      if (line.find("BEGIN METADATA") != std::string::npos) open = true;
+      if (line.find("END METADATA") != std::string::npos) open = false;
+    }
+    if (open) throw Error(ExitCode::config, file, "is damaged: its metadata has no end");
   }
 
   /// OpenColorIO reads profiles, too.

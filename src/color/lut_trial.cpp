@@ -46,7 +46,7 @@ void set_limit(int resource, rlim_t value) {
   for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) dup2(nothing, stream);
   for (const int fatal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU}) signal(fatal, SIG_DFL);
   set_limit(RLIMIT_CORE, 0);
-  set_limit(RLIMIT_CPU, 2 + size / (rlim_t{4} << 20));
+  set_limit(RLIMIT_CPU, 1 + size / (rlim_t{4} << 20));
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   set_limit(RLIMIT_AS, bytes_mapped() + (rlim_t{1} << 30) + 64 * size);
 #endif
