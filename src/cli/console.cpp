@@ -1,5 +1,6 @@
 #include "cli/console.h"
 
+#include <charconv>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/ioctl.h>
@@ -23,6 +24,17 @@ std::string one_line_json(const nlohmann::ordered_json& object) {
 }
 
 /// Bytes of the character that the text begins with; 0 where it is a control character or no UTF-8.
+/// U+061C, U+200B to U+200F, U+2028 to U+202E, U+2060 to U+206F, U+FEFF: breaks of lines, marks that turn the direction of
+/// writing, and what has no width. In a name they make it look like another.
+bool steers_text(std::string_view c) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(c[i]); };
+  if (c == "\u061c" || c == "\ufeff") return true;
+  if (c.size() != 3 || byte(0) != 0xe2) return false;
+  const unsigned low = byte(2);
+  return (byte(1) == 0x80 && ((low >= 0x8b && low <= 0x8f) || (low >= 0xa8 && low <= 0xae))) ||
+         (byte(1) == 0x81 && low >= 0xa0 && low <= 0xaf);
+}
+
 std::size_t printable_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   if (byte(0) < 0x80) return byte(0) >= 0x20 && byte(0) != 0x7f ? 1 : 0;
@@ -35,7 +47,7 @@ std::size_t printable_length(std::string_view text) {
   const bool no = (byte(0) == 0xc2 && second < 0xa0) || (byte(0) == 0xe0 && second < 0xa0) ||
                   (byte(0) == 0xed && second > 0x9f) || (byte(0) == 0xf0 && second < 0x90) ||
                   (byte(0) == 0xf4 && second > 0x8f);
-  return no ? 0 : length;
+  return no || steers_text(text.substr(0, length)) ? 0 : length;
 }
 
 /// What stands on the disk that was not there before.
@@ -98,12 +110,25 @@ ErrorLines& errors() {
 
 }  // namespace
 
+CLI::Validator whole_number(std::int64_t least, std::int64_t greatest) {
+  const std::string range = fmt::format("{} to {}", least, greatest);
+  const auto check = [=](const std::string& text) {
+    std::int64_t value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    const bool plain = !text.empty() && text[0] != '-' && (text[0] != '0' || text.size() == 1);
+    const bool good = plain && error == std::errc() && stop == end && value >= least && value <= greatest;
+    return good ? std::string() : fmt::format("'{}' is not a whole number from {}", text, range);
+  };
+  return CLI::Validator(check, range);
+}
+
 void add_common_options(CLI::App& verb, CommonOptions& options) {
   verb.add_flag("-v,--verbose", options.verbose, "Say what was found and chosen");
   verb.add_flag("-q,--quiet", options.quiet, "Say nothing but errors")->excludes("--verbose");
   verb.add_flag("--json", options.json, "Result on stdout, errors on stderr, as one JSON object");
   verb.add_option("--threads", options.threads, "Threads; 0: one for each processor (default)")
-      ->check(CLI::Range(0, 1024));
+      ->check(whole_number(0, 1024));
 }
 
 std::string printable(const std::string& text) {

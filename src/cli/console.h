@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -21,6 +22,10 @@ struct CommonOptions {
   /// Options on the command line that change what is written, each as "name=value"; see recipe.h.
   std::vector<std::string> typed;
 };
+
+/// A whole number in decimal digits alone: no sign, space, leading zero or prefix, which CLI11 takes for octal or
+/// hexadecimal.
+CLI::Validator whole_number(std::int64_t least, std::int64_t greatest);
 
 void add_common_options(CLI::App& verb, CommonOptions& options);
 

@@ -43,6 +43,17 @@ Error usage_error(const CLI::App& program, const CLI::ParseError& error, int arg
   return Error(ExitCode::usage, "", unknown.empty() ? error.what() : unknown);
 }
 
+/// A value that is there, but empty, is a mistake of a script's, and no wish for the default.
+void refuse_empty_values(const CLI::App& program) {
+  for (const CLI::App* verb : program.get_subcommands())
+    for (const CLI::Option* option : verb->get_options()) {
+      // Of those that would take it for their default; the others say themselves what they take.
+      if (option->get_positional() || option->get_name() == "--adaptation") continue;
+      for (const std::string& value : option->results())
+        if (value.empty()) throw Error(ExitCode::usage, "", option->get_name() + ": '' is not a value: it is empty");
+    }
+}
+
 bool asks_for_json(int argc, char** argv) {
   return std::any_of(argv, argv + argc, [](const char* a) { return std::string_view(a) == "--json"; });
 }
@@ -100,10 +111,13 @@ int run_program(int argc, char** argv, const std::vector<AddVerb>& verbs) {
   for (const AddVerb add : verbs) add(program, invocation);
   try {
     program.parse(arguments_of(argc, argv));
+    refuse_empty_values(program);
   } catch (const CLI::Success& wish) {
     return print_wish(program, wish, json);
   } catch (const CLI::ParseError& error) {
     return report(usage_error(program, error, argc, argv), json);
+  } catch (const Error& error) {
+    return report(error, json);
   }
   return run_verb(invocation, json);
 }

@@ -9,6 +9,7 @@
 #include <new>
 
 #include "color/base_config.h"
+#include "color/icc/embedded_profile.h"
 #include "base/error.h"
 #include "base/input_file.h"
 #include "color/lut_files.h"
@@ -37,6 +38,16 @@ std::string one_line(std::string text) {
   return end == std::string::npos ? "" : text.substr(0, end + 1);
 }
 
+/// Configs that OpenColorIO brings itself, and archives of one, are of 2.2 and later.
+void require_readable_kind(const std::string& file) {
+  const bool built_in = file.rfind("ocio://", 0) == 0;
+  const bool archive = file.size() > 6 && file.compare(file.size() - 6, 6, ".ocioz") == 0;
+  if ((!built_in && !archive) || OCIO::GetVersionHex() >= 0x02020000) return;
+  throw Error(ExitCode::config, file,
+              std::string(built_in ? "a config that OpenColorIO brings itself" : "an archived config") +
+                  " needs OpenColorIO 2.2; this is " + OCIO::GetVersion());
+}
+
 /// Warnings would come on stderr between our own lines.
 void silence_ocio() { OCIO::SetLoggingLevel(OCIO::LOGGING_LEVEL_NONE); }
 
@@ -63,23 +74,45 @@ RowConverter::RowConverter(const Matrix3<double>& matrix) : matrix_(matrix) {}
 RowConverter::RowConverter(OCIO::ConstCPUProcessorRcPtr processor)
     : processor_(processor && !processor->isNoOp() ? std::move(processor) : nullptr) {}
 
+RowConverter::RowConverter(const TransferCurve& curve, const Matrix3<double>& matrix, bool decode)
+    : matrix_(matrix), curve_(curve), decode_(decode) {}
+
+RowConverter::RowConverter(std::shared_ptr<const EmbeddedProfile> embedded, const Matrix3<double>& matrix, bool decode)
+    : matrix_(matrix), decode_(decode), embedded_(std::move(embedded)) {}
+
 RowConverter::RowConverter(std::shared_ptr<const IccProfile> profile, const Matrix3<double>& xyz_from_rgb)
     : matrix_(xyz_from_rgb), profile_(std::move(profile)) {}
 
 void RowConverter::apply(float* r, float* g, float* b, std::size_t count) const {
   if (profile_) {
     profile_->apply(*matrix_, r, g, b, count);
+  } else if (embedded_) {
+    apply_embedded(r, g, b, count);
   } else if (matrix_) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const Vec3<double> p = *matrix_ * Vec3<double>{r[i], g[i], b[i]};
-      r[i] = static_cast<float>(p[0]);
-      g[i] = static_cast<float>(p[1]);
-      b[i] = static_cast<float>(p[2]);
-    }
+    apply_matrix(r, g, b, count);
   } else if (processor_ && count > 0) {
     OCIO::PlanarImageDesc row(r, g, b, nullptr, static_cast<long>(count), 1);
     processor_->apply(row);
   }
+}
+
+void RowConverter::apply_matrix(float* r, float* g, float* b, std::size_t count) const {
+  const bool curved = !curve_.linear();
+  for (std::size_t i = 0; i < count; ++i) {
+    Vec3<double> p{r[i], g[i], b[i]};
+    if (curved && decode_) p = curve_.decode(p);
+    p = *matrix_ * p;
+    if (curved && !decode_) p = curve_.encode(p);
+    r[i] = static_cast<float>(p[0]);
+    g[i] = static_cast<float>(p[1]);
+    b[i] = static_cast<float>(p[2]);
+  }
+}
+
+void RowConverter::apply_embedded(float* r, float* g, float* b, std::size_t count) const {
+  if (decode_) embedded_->to_xyz(r, g, b, count);
+  apply_matrix(r, g, b, count);
+  if (!decode_) embedded_->from_xyz(r, g, b, count);
 }
 
 ColourConfig::ColourConfig(OCIO::ConstConfigRcPtr config, std::string file, const Limits& limits)
@@ -102,6 +135,7 @@ ColourConfig ColourConfig::own() {
 
 ColourConfig ColourConfig::from_file(const std::string& file, const Limits& limits) {
   silence_ocio();
+  require_readable_kind(file);
   // Younger OpenColorIO takes names of configs that it brings itself.
   if (file.rfind("ocio://", 0) != 0) (void)check_input_file(file, ExitCode::config, limits.config, "--max-config-size");
   OCIO::ConstConfigRcPtr config;
@@ -230,11 +264,13 @@ std::string ColourConfig::resolve(const std::string& name) const {
   return space->getName();
 }
 
-ColourSpace ColourConfig::space_of_file(const std::string& file, bool integer) const {
-  std::string rule_space = config_->getColorSpaceFromFilepath(file.c_str());
-  if (integer && config_->filepathOnlyMatchesDefaultRule(file.c_str()) && config_->hasRole("default_byte"))
-    rule_space = "default_byte";
-  return has_space(rule_space) ? space(rule_space) : space(OCIO::ROLE_SCENE_LINEAR);
+RuledSpace ColourConfig::space_by_rules(const std::string& file, bool integer) const {
+  const std::string role = integer ? "default_byte" : "default_float";
+  if (config_->filepathOnlyMatchesDefaultRule(file.c_str()) && config_->hasRole(role.c_str()) && has_space(role))
+    return {space(role), "the config's role " + role};
+  const std::string rule_space = config_->getColorSpaceFromFilepath(file.c_str());
+  if (has_space(rule_space)) return {space(rule_space), "the config's file rules"};
+  return {space(OCIO::ROLE_SCENE_LINEAR), "the config's role scene_linear"};
 }
 
 std::vector<std::string> ColourConfig::displays() const {
@@ -271,6 +307,11 @@ std::string ColourConfig::looks_of(const DisplayView& view) const {
 }
 
 OCIO::ConstCPUProcessorRcPtr ColourConfig::processor(const DisplayView& to) const {
+  const OCIO::DisplayViewTransformRcPtr both = OCIO::DisplayViewTransform::Create();
+  both->setSrc(working_space_.c_str());
+  both->setDisplay(to.display.c_str());
+  both->setView(to.view.c_str());
+  check_lut_files(config_, both, limits_);
   try {
     const std::lock_guard lock(making_processors);
     return config_->getProcessor(working_space_.c_str(), to.display.c_str(), to.view.c_str(),
@@ -283,13 +324,17 @@ OCIO::ConstCPUProcessorRcPtr ColourConfig::processor(const DisplayView& to) cons
 
 bool ColourConfig::same(const ColourSpace& a, const ColourSpace& b) const {
   if (a.for_a_device() || b.for_a_device()) return false;
-  if (a.name == b.name && a.xyz_from_rgb.has_value() == b.xyz_from_rgb.has_value()) return true;
+  if (a.embedded || b.embedded) return a.embedded == b.embedded;
+  if (!a.curve.linear() || !b.curve.linear())
+    return a.curve == b.curve && a.xyz_from_rgb && b.xyz_from_rgb && a.xyz_from_rgb->rows == b.xyz_from_rgb->rows;
+  if (a.name == b.name && !a.xyz_from_rgb && !b.xyz_from_rgb) return true;
+  if (a.xyz_from_rgb && b.xyz_from_rgb && a.xyz_from_rgb->rows == b.xyz_from_rgb->rows) return true;
   if (!a.xyz_from_rgb && !b.xyz_from_rgb) return processor(a.name, b.name)->isNoOp();
   return to_working(a).identity() && to_working(b).identity();
 }
 
 bool ColourConfig::is_srgb(const ColourSpace& space) const {
-  if (space.xyz_from_rgb || space.profile) return false;
+  if (space.xyz_from_rgb || space.profile || space.embedded) return false;
   const RowConverter convert = from_working(space);
   // Mid-grey and a saturated colour: sRGB's curve and primaries, to 1e-4 of full scale.
   constexpr Vec3<double> encoded = {.5, .25, .75};
@@ -334,14 +379,16 @@ std::optional<ColourConfig::Encoding> ColourConfig::encoding(const ColourSpace& 
 }
 
 std::optional<Matrix3<double>> ColourConfig::linear_xyz(const ColourSpace& space) const {
+  if (space.for_a_device() || space.embedded || !space.curve.linear()) return std::nullopt;
   if (space.xyz_from_rgb) return space.xyz_from_rgb;
-  if (space.for_a_device()) return std::nullopt;
   const std::optional<Matrix3<double>> working = linear_matrix(space.name, working_space_);
   return working ? std::optional(xyz_from_working_ * *working) : std::nullopt;
 }
 
 RowConverter ColourConfig::to_working(const ColourSpace& from) const {
+  if (from.embedded) return RowConverter(from.embedded, inverse(xyz_from_working_), true);
   if (!from.xyz_from_rgb) return RowConverter(processor(from.name, working_space_));
+  if (!from.curve.linear()) return RowConverter(from.curve, inverse(xyz_from_working_) * *from.xyz_from_rgb, true);
   const NamedPrimaries* known = match_matrix(*from.xyz_from_rgb);
   if (known && known->name == working_gamut_) return RowConverter();
   return RowConverter(inverse(xyz_from_working_) * *from.xyz_from_rgb);
@@ -350,6 +397,9 @@ RowConverter ColourConfig::to_working(const ColourSpace& from) const {
 RowConverter ColourConfig::from_working(const ColourSpace& to) const {
   if (to.profile) return RowConverter(to.profile, xyz_from_working_);
   if (to.view) return RowConverter(processor(*to.view));
+  if (to.embedded) return RowConverter(to.embedded, xyz_from_working_, false);
+  if (to.xyz_from_rgb && !to.curve.linear())
+    return RowConverter(to.curve, inverse(*to.xyz_from_rgb) * xyz_from_working_, false);
   if (!to.xyz_from_rgb) return RowConverter(processor(working_space_, to.name));
   const NamedPrimaries* known = match_matrix(*to.xyz_from_rgb);
   if (known && known->name == working_gamut_) return RowConverter();

@@ -12,6 +12,7 @@
 #include "color/icc_profile.h"
 #include "base/limits.h"
 #include "color/primaries.h"
+#include "color/transfer.h"
 #include "kernel/matrix3.h"
 
 namespace scotopic {
@@ -22,14 +23,18 @@ struct DisplayView {
   std::string view;
 };
 
-/// An RGB space: one of the config's; linear light with the primaries that a file states; what a display is sent under
-/// one of the config's views; or the values of a device that an ICC profile describes. Where `name` is not the config's
-/// it is only for the reader.
+class EmbeddedProfile;
+
+/// An RGB space: one of the config's; light with the primaries and the curve that a file states, or as the profile that
+/// it embeds has it; what a display is sent under one of the config's views; or the values of a device that an ICC
+/// profile describes. Where `name` is not the config's it is only for the reader.
 struct ColourSpace {
   std::string name;
-  std::optional<Matrix3<double>> xyz_from_rgb = std::nullopt;  ///< of linear light with stated primaries
+  std::optional<Matrix3<double>> xyz_from_rgb = std::nullopt;  ///< of light with stated primaries, after `curve`
   std::optional<DisplayView> view = std::nullopt;              ///< results only
   std::shared_ptr<const IccProfile> profile = nullptr;         ///< results only
+  TransferCurve curve = {};                                    ///< with xyz_from_rgb only
+  std::shared_ptr<const EmbeddedProfile> embedded = nullptr;   ///< of the file
 
   /// Values are for a device, no longer light.
   bool for_a_device() const noexcept { return view || profile; }
@@ -44,6 +49,10 @@ class RowConverter {
   explicit RowConverter(const Matrix3<double>& matrix);
   /// Whatever a processor of OCIO does.
   explicit RowConverter(OCIO_NAMESPACE::ConstCPUProcessorRcPtr processor);
+  /// Encoded values to light (`decode`), or back: the curve, then the matrix; the matrix, then the curve.
+  RowConverter(const TransferCurve& curve, const Matrix3<double>& matrix, bool decode);
+  /// A file's values to light (the matrix comes after), or back (before).
+  RowConverter(std::shared_ptr<const EmbeddedProfile> embedded, const Matrix3<double>& matrix, bool decode);
   /// Device values of linear light.
   RowConverter(std::shared_ptr<const IccProfile> profile, const Matrix3<double>& xyz_from_rgb);
 
@@ -53,9 +62,21 @@ class RowConverter {
   void apply(float* r, float* g, float* b, std::size_t count) const;
 
  private:
+  void apply_matrix(float* r, float* g, float* b, std::size_t count) const;
+  void apply_embedded(float* r, float* g, float* b, std::size_t count) const;
+
   std::optional<Matrix3<double>> matrix_;
+  TransferCurve curve_;
+  bool decode_ = true;
+  std::shared_ptr<const EmbeddedProfile> embedded_;
   OCIO_NAMESPACE::ConstCPUProcessorRcPtr processor_;
   std::shared_ptr<const IccProfile> profile_;
+};
+
+/// A space by the config's rules, and which of them.
+struct RuledSpace {
+  ColourSpace space;
+  std::string reason;
 };
 
 /// Throws Error(ExitCode::config) whenever the config or one of its spaces is at fault.
@@ -97,9 +118,10 @@ class ColourConfig {
   std::string looks_of(const DisplayView& view) const;
   /// Whether there is a space, role or alias of that name.
   bool has_space(const std::string& name) const;
-  /// What the config's rules say of a file. `integer` pixels that only the default rule matches are taken to
-  /// be display-encoded: role default_byte, where there is one.
-  ColourSpace space_of_file(const std::string& file, bool integer) const;
+  /// What the config's rules say of a file. Of pixels that only the default rule matches its roles say more, where
+  /// there are such: default_byte of `integer` ones, default_float of others.
+  RuledSpace space_by_rules(const std::string& file, bool integer) const;
+  ColourSpace space_of_file(const std::string& file, bool integer) const { return space_by_rules(file, integer).space; }
   /// Every space, role and alias.
   std::vector<std::string> names() const;
   /// Whether pixels of both spaces mean the same.

@@ -11,16 +11,13 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "color/icc/icc_check.h"
 #include "color/primaries.h"
 
 namespace scotopic {
 namespace {
 
-// Larger than any profile of an RGB device in use (the largest tables have some 3 MB).
-constexpr std::uintmax_t most_bytes = std::uintmax_t{64} << 20;
 constexpr float farthest = 1e4f;
-// ICC.1's profile connection space: XYZ (.9642, 1, .8249).
-constexpr Xy d50{0.9642 / (0.9642 + 1.0 + 0.8249), 1.0 / (0.9642 + 1.0 + 0.8249)};
 
 cmsUInt32Number lcms_intent(RenderingIntent intent) {
   switch (intent) {
@@ -77,7 +74,7 @@ void IccProfile::read() {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(file_, error);
   if (error) fail("cannot be read: " + error.message());
-  if (size > most_bytes) fail("is no ICC profile: larger than any");
+  if (size > most_icc_bytes) fail("is no ICC profile: larger than any");
   bytes_.resize(static_cast<std::size_t>(size));
   std::ifstream in(file_, std::ios::binary);
   if (!in.read(reinterpret_cast<char*>(bytes_.data()), static_cast<std::streamsize>(bytes_.size())))
@@ -85,6 +82,8 @@ void IccProfile::read() {
 }
 
 void IccProfile::open() {
+  if (!is_icc(bytes_)) fail("is no ICC profile, or damaged");
+  if (const std::string fault = fault_of_icc(bytes_); !fault.empty()) fail("is damaged: " + fault);
   Handles& h = *handles_;
   h.device = cmsOpenProfileFromMemTHR(h.context, bytes_.data(), static_cast<cmsUInt32Number>(bytes_.size()));
   if (!h.device) fail("is no ICC profile, or damaged");
@@ -104,7 +103,7 @@ void IccProfile::open() {
 
 void IccProfile::apply(const Matrix3<double>& xyz_from_rgb, float* r, float* g, float* b,
                        std::size_t count) const {
-  const Matrix3<double> connect = bradford(white_d65, d50) * xyz_from_rgb;
+  const Matrix3<double> connect = bradford(white_d65, icc_d50) * xyz_from_rgb;
   constexpr std::size_t most = 256;
   std::array<Vec3<double>, most> xyz;
   std::array<Vec3<float>, most> device;

@@ -2,10 +2,17 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <map>
+#include <span>
+#include <vector>
 
 #include "base/error.h"
 #include "base/input_file.h"
+#include "color/icc/icc_check.h"
+#include "color/lut_trial.h"
 
 namespace OCIO = OCIO_NAMESPACE;
 
@@ -105,7 +112,35 @@ class Walk {
       return;
     }
     struct stat info = {};
-    if (stat(file.c_str(), &info) == 0) (void)check_input_file(file, ExitCode::config, limits_.lut, "--max-lut-size");
+    if (stat(file.c_str(), &info) != 0) return;
+    (void)check_input_file(file, ExitCode::config, limits_.lut, "--max-lut-size");
+    check_icc_file(file);
+    check_csp_file(file);
+    try_lut_file(file);
+  }
+
+  /// OpenColorIO 2.1 looks for the end of a csp's metadata beyond that of the file, for ever.
+  static void check_csp_file(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    bool open = false;
+    std::string line;
+    if (!std::getline(in, line) || line.rfind("CSPLUTV100", 0) != 0) return;
+    while (std::getline(in, line)) {
+      if (line.find("BEGIN METADATA") != std::string::npos) open = true;
+      if (line.find("END METADATA") != std::string::npos) open = false;
+    }
+    if (open) throw Error(ExitCode::config, file, "is damaged: its metadata has no end");
+  }
+
+  /// OpenColorIO reads profiles, too.
+  static void check_icc_file(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::vector<char> bytes(132);
+    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (!in || !is_icc(std::as_bytes(std::span(bytes)))) return;
+    bytes.insert(bytes.end(), std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+    const std::string fault = fault_of_icc(std::as_bytes(std::span(bytes)));
+    if (!fault.empty()) throw Error(ExitCode::config, file, "is damaged: " + fault);
   }
 
   const OCIO::ConstConfigRcPtr& config_;

@@ -38,6 +38,15 @@ const std::vector<NamedPrimaries>& known_primaries() {
   return sets;
 }
 
+bool are_usable(const Primaries& p) {
+  const auto finite = [](Xy c) { return std::abs(c.x) <= 10 && std::abs(c.y) <= 10; };
+  if (!finite(p.red) || !finite(p.green) || !finite(p.blue) || !finite(p.white) || !(p.white.y > 1e-3)) return false;
+  const double area = (p.green.x - p.red.x) * (p.blue.y - p.red.y) - (p.blue.x - p.red.x) * (p.green.y - p.red.y);
+  if (!(std::abs(area) > 1e-4)) return false;
+  const Matrix3<double> m = xyz_d65_from_rgb(p);
+  return std::abs(determinant(m)) > 1e-6 && std::isfinite(determinant(m));
+}
+
 Matrix3<double> xyz_from_rgb(const Primaries& p) {
   const auto column = [](Xy c) { return Vec3<double>{c.x, c.y, 1.0 - c.x - c.y}; };
   const Matrix3<double> directions =

@@ -35,6 +35,12 @@ const std::vector<NamedPrimaries>& known_primaries();
 /// The white of sRGB, BT.709 and all D65 spaces here: x = .3127, y = .3290.
 inline constexpr Xy white_d65{0.3127, 0.3290};
 
+/// ICC.1's profile connection space: XYZ (.9642, 1, .8249).
+inline constexpr Xy icc_d50{0.9642 / (0.9642 + 1.0 + 0.8249), 1.0 / (0.9642 + 1.0 + 0.8249)};
+
+/// Whether primaries span a space: finite, whites of a positive y, not on one line.
+bool are_usable(const Primaries& primaries);
+
 /// CIE XYZ with white Y = 1 from linear RGB, unadapted. The primaries must not lie on one line.
 Matrix3<double> xyz_from_rgb(const Primaries& primaries);
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "io/pixel_type.h"
-#include "color/primaries.h"
+#include "color/file/colour_tags.h"
 
 namespace scotopic {
 
@@ -44,6 +44,8 @@ struct ColourChannels {
   std::array<std::size_t, 4> index{};
   std::optional<std::size_t> alpha;
   std::string layer;  ///< prefix of the channels' names; empty for the topmost
+  bool straight = false;  ///< alpha is not multiplied into them
+  bool xyz = false;   ///< of Kind::rgb: they are CIE X, Y, Z
 
   /// How many of `index` count.
   std::size_t count() const {
@@ -67,6 +69,7 @@ struct Picture {
   int level_x = 0;
   int level_y = 0;
   std::string name;  ///< of the part, if it has one
+  std::string view;  ///< of a stereo picture, if it is one of its parts
   Window data;
   Window display;
   std::vector<Channel> channels;
@@ -80,13 +83,18 @@ struct Picture {
   bool descending = false;
   /// False for deep or subsampled pixels, which can only be copied as they are.
   bool readable = true;
+  double pixel_aspect = 1;  ///< width over height of a pixel
   /// Colour values are not multiplied by alpha.
   bool unassociated_alpha = false;
-  std::optional<Primaries> primaries;
-  std::optional<Xy> adopted_neutral;  ///< attribute adoptedNeutral: what counts as white
+  ColourTags colour;
   std::optional<double> white_luminance;  ///< attribute whiteLuminance, cd/m2
+  /// What reading it changes or leaves out, one sentence each.
+  std::vector<std::string> notes;
   std::optional<double> lmsr_unit;        ///< attribute scotopic:lmsrUnit, cd/m2 (docs: image/apply_image.h)
 };
+
+/// A pixel's aspect as a header states it; 1 for what is none, or beyond 0.1 to 10.
+inline double usable_aspect(double stated) { return stated >= 0.1 && stated <= 10 ? stated : 1.0; }
 
 /// One channel of a band: row r of it starts at data + r * row_stride.
 struct ChannelRows {
@@ -125,9 +133,5 @@ std::size_t row_bytes(const Picture& picture);
 /// Bytes that reading the picture and writing it again plans for: three bands (read, written, and what the
 /// libraries hold of them), and the library's own.
 std::int64_t planned_bytes(const Picture& picture);
-
-/// Where the light is. `layer`: a channel prefix to look under ("" chooses by itself: topmost R, G, B; else
-/// the only layer that has them; else L, M, S, R; else a single Y). Several candidates are an Error(usage).
-ColourChannels find_colour(const Picture& picture, const std::string& layer, const std::string& file);
 
 }  // namespace scotopic

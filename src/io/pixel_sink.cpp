@@ -25,7 +25,7 @@ std::string output_format(const std::string& path) {
 const std::vector<PixelType>& pixel_types_of(const std::string& format) {
   static const std::map<std::string, std::vector<PixelType>> types = {
       {"openexr", {PixelType::half, PixelType::float32}},
-      {"tiff", {PixelType::uint8, PixelType::uint16, PixelType::half, PixelType::float32}},
+      {"tiff", {PixelType::uint8, PixelType::uint16, PixelType::float32}},
       {"png", {PixelType::uint8, PixelType::uint16}},
       {"jpeg", {PixelType::uint8}}};
   return types.at(format);

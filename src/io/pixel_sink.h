@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "color/icc_profile.h"
+#include "color/file/written_tags.h"
 #include "io/atomic/output_file.h"
 #include "io/pixel_source.h"
 
@@ -18,14 +18,13 @@ struct OutputPicture {
   bool copy = false;       ///< compressed chunks as they are (OpenEXR to OpenEXR)
   /// Set over whatever the source says: what was applied.
   std::vector<Attribute> stamps;
-  /// Colour values changed their space: an ICC profile or chromaticities of the source no longer hold.
+  /// Colour values changed their space.
   bool new_space = false;
-  std::optional<Primaries> primaries;  ///< of the new space, where it has such
-  std::optional<Xy> adopted_neutral;   ///< of the new space, where its white is not that of (1, 1, 1)
-  bool srgb = false;                   ///< colour values are encoded with sRGB's curve
-  bool for_a_device = false;           ///< values are what a device is sent: no cd/m2 belong to them any more
-  std::shared_ptr<const IccProfile> profile = nullptr;  ///< of that device, to be embedded
-  int jpeg_quality = 95;                                ///< 1 to 100
+  /// What the source's header states of its colours does not hold for the output: `tags` do.
+  bool new_tags = false;
+  WrittenTags tags;
+  bool for_a_device = false;  ///< values are what a device is sent: no cd/m2 belong to them any more
+  int jpeg_quality = 95;      ///< 1 to 100
 };
 
 /// Errors are Error(ExitCode::output). One thread at a time.

@@ -9,6 +9,7 @@
 
 #include "base/input_file.h"
 #include "base/limits.h"
+#include "io/light_channels.h"
 #include "io/picture.h"
 
 namespace scotopic {

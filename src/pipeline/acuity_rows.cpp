@@ -7,18 +7,24 @@
 
 namespace scotopic {
 
-std::int64_t acuity_bytes(const SpatialFilter& filter, const Picture& picture) {
+std::int64_t acuity_bytes(const SpatialFilter& filter, const Picture& picture, bool wraps) {
   const std::int64_t rows = band_rows(picture);
   // Bands that wait until the halo below them has come, the one that comes and the one worked out.
   const std::int64_t waiting = filter.halo() + 2 * rows;
   constexpr std::int64_t planes = 3 * sizeof(float), rest = sizeof(float) + 1;  // alpha, touched
   const std::int64_t of_file = static_cast<std::int64_t>(row_bytes(picture));
-  return (filter.halo() + waiting) * planes * picture.data.width() + rows * planes * picture.data.width() +
+  const std::int64_t width = picture.data.width() + (wraps ? 2 * filter.halo() : 0);
+  return (filter.halo() + waiting) * planes * width + rows * planes * picture.data.width() +
          waiting * (rest * picture.data.width() + of_file);
 }
 
-AcuityRows::AcuityRows(const SpatialFilter& filter, const Window& data, bool descending, bool alpha)
-    : filter_(filter), data_(data), descending_(descending), alpha_(alpha) {}
+AcuityRows::AcuityRows(const SpatialFilter& filter, const Window& data, bool descending, bool alpha, bool wraps)
+    : filter_(filter),
+      data_(data),
+      descending_(descending),
+      alpha_(alpha),
+      pad_(wraps ? filter.halo() : 0),
+      stride_(data.width() + 2 * pad_) {}
 
 const Band* AcuityRows::add(Band&& band) {
   const std::size_t pixels = static_cast<std::size_t>(band.rows) * static_cast<std::size_t>(band.width);
@@ -27,15 +33,28 @@ const Band* AcuityRows::add(Band&& band) {
   last.touched.resize(pixels);
   last.band = std::move(band);
   come_ += last.band.rows;
-  const auto floats = static_cast<std::size_t>(come_ - forgotten_) * static_cast<std::size_t>(data_.width());
+  const auto floats = static_cast<std::size_t>(come_ - forgotten_) * static_cast<std::size_t>(stride_);
   for (std::vector<float>& plane : in_) plane.resize(floats);
   return &last.band;
 }
 
-// Where image row y (from data_.y0) lies: rows are kept in the order of their coming.
+namespace {
+
+/// A row, and `pad` columns of its other side left and right of it, round and round.
+void wrap_row(const std::vector<float>& from, int width, int pad, float* to) {
+  std::copy_n(from.data(), width, to);
+  for (int i = 0; i < pad; ++i) {
+    to[-1 - i] = from[static_cast<std::size_t>(width - 1 - i % width)];
+    to[width + i] = from[static_cast<std::size_t>(i % width)];
+  }
+}
+
+}  // namespace
+
+// Where image row y (from data_.y0) lies, at its first column: rows are kept in the order of their coming.
 const float* AcuityRows::plane_row(int channel, int y) const {
   const int order = descending_ ? data_.height() - 1 - y : y;
-  return in_[channel].data() + static_cast<std::ptrdiff_t>(order - forgotten_) * data_.width();
+  return in_[channel].data() + static_cast<std::ptrdiff_t>(order - forgotten_) * stride_ + pad_;
 }
 
 float* AcuityRows::plane_row(int channel, int y) {
@@ -47,9 +66,9 @@ void AcuityRows::set_row(int row, const LightRow& light) {
   const int y = last.band.y0 - data_.y0 + row;
   const auto width = static_cast<std::size_t>(data_.width());
   const std::size_t at = static_cast<std::size_t>(row) * width;
-  std::copy_n(light.r.data(), width, plane_row(0, y));
-  std::copy_n(light.g.data(), width, plane_row(1, y));
-  std::copy_n(light.b.data(), width, plane_row(2, y));
+  wrap_row(light.r, data_.width(), pad_, plane_row(0, y));
+  wrap_row(light.g, data_.width(), pad_, plane_row(1, y));
+  wrap_row(light.b, data_.width(), pad_, plane_row(2, y));
   std::copy_n(light.touched.data(), width, last.touched.data() + at);
   if (alpha_) std::copy_n(light.alpha.data(), width, last.alpha.data() + at);
 }
@@ -72,17 +91,17 @@ void AcuityRows::filter_band() {
   const std::size_t floats = static_cast<std::size_t>(now_.band.rows) * static_cast<std::size_t>(width);
   for (std::vector<float>& plane : out_) plane.resize(floats);
   const int top = descending_ ? data_.height() - come_ : forgotten_;
-  const AcuityWindow window{plane_row(0, top),
-                            plane_row(1, top),
-                            plane_row(2, top),
-                            descending_ ? -width : width,
+  const AcuityWindow window{plane_row(0, top) - pad_,
+                            plane_row(1, top) - pad_,
+                            plane_row(2, top) - pad_,
+                            descending_ ? -stride_ : stride_,
                             0,
                             top,
-                            width,
+                            stride_,
                             come_ - forgotten_,
-                            width,
+                            stride_,
                             data_.height()};
-  const AcuityTile tile{out_[0].data(), out_[1].data(), out_[2].data(), width, 0, y, width, now_.band.rows};
+  const AcuityTile tile{out_[0].data(), out_[1].data(), out_[2].data(), width, pad_, y, width, now_.band.rows};
   filter_.filter(window, tile, [](int count, const std::function<void(int)>& task) {
     parallel_rows(count, 1, [&](int first, int last) {
       for (int i = first; i < last; ++i) task(i);
@@ -108,7 +127,7 @@ void AcuityRows::forget_rows() {
   int done = come_;
   for (const WaitingBand& waiting : waiting_) done -= waiting.band.rows;
   const int gone = std::max(0, done - filter_.halo() - forgotten_);
-  const std::ptrdiff_t floats = static_cast<std::ptrdiff_t>(gone) * data_.width();
+  const std::ptrdiff_t floats = static_cast<std::ptrdiff_t>(gone) * stride_;
   for (std::vector<float>& plane : in_) plane.erase(plane.begin(), plane.begin() + floats);
   forgotten_ += gone;
 }

@@ -21,14 +21,15 @@ struct WaitingBand {
 };
 
 /// Bytes that AcuityRows will keep of a picture: planned before any is allocated.
-std::int64_t acuity_bytes(const SpatialFilter& filter, const Picture& picture);
+std::int64_t acuity_bytes(const SpatialFilter& filter, const Picture& picture, bool wraps = false);
 
 /// Rows of one picture, from its top or (descending) its bottom. Holds the rows of the bands that wait and of
 /// the halo: memory does not grow with the height.
 class AcuityRows {
  public:
-  /// `filter` must outlive it; `data` is the picture's window; `alpha`: keep it beside the light.
-  AcuityRows(const SpatialFilter& filter, const Window& data, bool descending, bool alpha);
+  /// `filter` must outlive it; `data` is the picture's window; `alpha`: keep it beside the light; `wraps`: the last
+  /// column lies beside the first, as in a lat-long panorama.
+  AcuityRows(const SpatialFilter& filter, const Window& data, bool descending, bool alpha, bool wraps = false);
 
   /// Makes room for the next band, and says where it lies until next() takes it.
   const Band* add(Band&& band);
@@ -56,6 +57,8 @@ class AcuityRows {
   Window data_;
   bool descending_;
   bool alpha_;
+  int pad_;     // columns of the other side, left and right of each row
+  int stride_;  // floats of a row with them
   std::deque<WaitingBand> waiting_;
   WaitingBand now_;
   std::vector<float> in_[3];   // rows in the order of their coming

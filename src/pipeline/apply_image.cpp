@@ -37,10 +37,10 @@ class PictureRun {
         reader_(light_.channels, config, light_.space) {
     writer_.from_working = config.from_working(layout.output_space);
     writer_.gain = static_cast<float>(std::exp2(layout.exposure));
-    if (light_.channels.alpha && source_picture_.unassociated_alpha != out.picture.unassociated_alpha)
-      writer_.alpha = out.picture.unassociated_alpha ? AlphaChange::unassociate : AlphaChange::associate;
-    writer_.keep_untouched = !out.new_space && writer_.gain == 1 && writer_.alpha == AlphaChange::none;
     find_others();
+    set_alpha(config.linear_xyz(layout.output_space).has_value());
+    const bool same_alpha = !light_.channels.alpha || source_picture_.unassociated_alpha == out.picture.unassociated_alpha;
+    writer_.keep_untouched = !out.new_space && writer_.gain == 1 && same_alpha;
   }
 
   /// Fills `out` from `in`; `interleaved` as the sink wants it.
@@ -215,6 +215,15 @@ class PictureRun {
       copy_other(in.channels[others_[i]].row(row), out.channels[3 + i].row(row), room.r);
   }
 
+  /// Without alpha beside it colour is written as the light it is.
+  void set_alpha(bool linear) {
+    const std::optional<std::size_t>& alpha = light_.channels.alpha;
+    if (!alpha || std::find(others_.begin(), others_.end(), *alpha) == others_.end()) return;
+    const bool straight = out_.picture.unassociated_alpha;
+    writer_.divide_by_alpha = straight || !linear;
+    writer_.multiply_by_alpha = !straight && !linear;
+  }
+
   /// Channels that are not colour follow R, G, B, in the file's order.
   void find_others() {
     for (std::size_t o = 3; o < out_.picture.channels.size(); ++o) {
@@ -266,9 +275,11 @@ PixelRows columns(PixelRows rows, std::uint64_t first, int count) {
 }
 
 /// A picture's way through each filter, in their order.
-std::deque<AcuityRows> filter_rows(const SpatialFilters& filters, const Picture& picture, bool descending, bool alpha) {
+std::deque<AcuityRows> filter_rows(const SpatialFilters& filters, const Picture& picture, bool descending, bool alpha,
+                                   bool wraps) {
   std::deque<AcuityRows> out;
-  for (const SpatialFilter* filter : filters) out.emplace_back(*filter, picture.data, descending, alpha);
+  const bool whole = picture.data.x0 == picture.display.x0 && picture.data.x1 == picture.display.x1;
+  for (const SpatialFilter* filter : filters) out.emplace_back(*filter, picture.data, descending, alpha, wraps && whole);
   return out;
 }
 
@@ -338,7 +349,7 @@ LuminanceHistogram measure_base(PixelSource& source, const ImageLayout& layout, 
     const Picture& picture = source.pictures()[out.source];
     if (out.copy || picture.level_x != 0 || picture.level_y != 0) continue;
     const PictureRun run(source, layout, config, apply, out);
-    std::deque<AcuityRows> rows_of_filters = filter_rows(filters, picture, false, false);
+    std::deque<AcuityRows> rows_of_filters = filter_rows(filters, picture, false, false, layout.wraps);
     each_band(picture, false, [&](int y0, int rows) {
       source.read(out.source, y0, rows, in);
       run.see_band(std::move(in), rows_of_filters, [&](const AcuityRows& seen) {
@@ -381,7 +392,7 @@ std::uint64_t apply_image(PixelSource& source, const ImageLayout& layout, const 
     const Picture& picture = source.pictures()[layout.outputs[i].source];
     // OpenEXR wants the rows in the order that its header states, the other formats from the top.
     const bool descending = picture.descending && layout.format == "openexr";
-    std::deque<AcuityRows> rows_of_filters = filter_rows(filters, picture, descending, run.has_alpha());
+    std::deque<AcuityRows> rows_of_filters = filter_rows(filters, picture, descending, run.has_alpha(), layout.wraps);
     const auto write = [&](const Band& seen) {
       sink->write(i, seen);
       done += seen.rows;

@@ -4,9 +4,9 @@
 // of 1 cd/m2 has L + M = 1 and R = .4986. The float attribute "scotopic:lmsrUnit" says how many cd/m2 a value
 // of 1 stands for; without it "whiteLuminance" does.
 //
-// Alpha: colour is taken as the file has it, associated or not, and the operator applied to that. Only
-// between formats of different convention (PNG is unassociated, OpenEXR associated) is it multiplied or
-// divided.
+// Alpha: light is what alpha has been multiplied into. Straight colour (PNG, some TIFF) is multiplied by its alpha before
+// the operator sees it and divided after; so the same picture is the same light whichever way it is stored. Where values
+// are encoded with a curve alpha stands after the curve: encoded straight colour, times alpha.
 //
 // A single luminance channel (Y, or a grey TIFF or PNG) becomes R, G, B: the eye in the dark does not see
 // grey as grey alone.
@@ -54,6 +54,7 @@ struct LightPicture {
   ColourChannels channels;
   ColourSpace space;
   std::string space_reason;  ///< how the space was found
+  std::vector<std::string> conflicts;  ///< tags of the file that say something else
 };
 
 /// The display that a result is encoded for.
@@ -71,6 +72,7 @@ struct ImageLayout {
   ColourSpace output_space;
   double exposure = 0;
   std::optional<NightOutput> night;  ///< the display stage runs
+  bool wraps = false;  ///< a lat-long panorama: filters look across its left and right side
   std::vector<std::string> notes;
 
   /// The light of that picture of the source; nullptr: it holds none.

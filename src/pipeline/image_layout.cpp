@@ -1,115 +1,15 @@
 // What the output will hold: decided from headers alone.
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "pipeline/apply_image.h"
+#include "pipeline/find_light.h"
 #include "base/error.h"
-#include "base/names.h"
 
 namespace scotopic {
 namespace {
 
 using Kind = ColourChannels::Kind;
-
-void choose_space(const PixelSource& source, const ColourConfig& config, const ImageRequest& request,
-                  LightPicture& light) {
-  const Picture& picture = source.pictures()[light.index];
-  if (light.channels.kind == Kind::lmsr || light.channels.kind == Kind::computed) {
-    light.space = config.space(config.working_space());
-    light.space_reason = "receptor signals";
-  } else if (request.colourspace) {
-    light.space = config.space(*request.colourspace);
-    light.space_reason = "--colorspace";
-  } else if (picture.primaries && are_cie_xyz(*picture.primaries)) {
-    light.space = {"CIE XYZ", bradford(picture.adopted_neutral.value_or(white_d65), white_d65)};
-    light.space_reason = picture.adopted_neutral ? "the file's chromaticities and neutral" : "the file's chromaticities";
-  } else if (const NamedPrimaries* known =
-                 picture.primaries ? match_primaries(*picture.primaries) : nullptr) {
-    light.space = {std::string(known->label), xyz_d65_from_rgb(known->primaries)};
-    light.space_reason = "the file's chromaticities";
-  } else {
-    const PixelType type = picture.channels[light.channels.index[0]].type;
-    light.space = config.space_of_file(source.file(), is_integer(type));
-    light.space_reason = "the config's file rules";
-  }
-}
-
-/// The light of one picture; one with several candidates tells so in `ambiguous` and counts as having none.
-ColourChannels colour_of(const PixelSource& source, std::size_t index, const std::string& layer,
-                         std::optional<Error>& ambiguous) {
-  try {
-    return source.colour(index, layer);
-  } catch (const Error& e) {
-    if (!ambiguous) ambiguous = e;
-    return {};
-  }
-}
-
-/// Names that --layer could have meant.
-std::vector<std::string> layer_names(const PixelSource& source) {
-  std::set<std::string> names;
-  for (const Picture& picture : source.pictures()) {
-    if (!picture.name.empty()) names.insert(picture.name);
-    for (const Channel& channel : picture.channels)
-      if (const std::size_t dot = channel.name.rfind('.'); dot != std::string::npos)
-        names.insert(channel.name.substr(0, dot));
-  }
-  return {names.begin(), names.end()};
-}
-
-[[noreturn]] void fail_without_light(const PixelSource& source, const std::string& layer) {
-  if (!layer.empty())
-    throw Error(ExitCode::usage, source.file(),
-                "has no layer or part '" + layer + "' with R, G, B or L, M, S, R" +
-                    did_you_mean(layer, layer_names(source)));
-  const bool unreadable = std::any_of(source.pictures().begin(), source.pictures().end(),
-                                      [](const Picture& p) { return !p.readable; });
-  throw Error(
-      ExitCode::input, source.file(),
-      unreadable
-          ? "has colour only in deep or subsampled (luminance/chroma) channels, which are not supported"
-          : "has no channels R, G, B, nor L, M, S, R, nor Y");
-}
-
-/// Parts with topmost colour are all of them light (the views of a stereo pair); of parts that have it in
-/// layers only, one must be chosen: the others are passes, not pictures.
-void keep_pictures(const PixelSource& source, std::vector<LightPicture>& light) {
-  const auto layered = [](const LightPicture& p) { return !p.channels.layer.empty(); };
-  if (!std::all_of(light.begin(), light.end(), layered)) {
-    std::erase_if(light, layered);
-    return;
-  }
-  std::string names;
-  std::set<int> parts;
-  for (const LightPicture& p : light)
-    if (parts.insert(source.pictures()[p.index].part).second)
-      names += (names.empty() ? "" : ", ") + p.channels.layer;
-  if (parts.size() > 1)
-    throw Error(ExitCode::usage, source.file(),
-                "has colour in several layers (" + names + "); choose with --layer");
-}
-
-/// Pictures that hold light, by the rules of find_colour; a layer may also be the name of a part.
-std::vector<LightPicture> find_light(const PixelSource& source, const ColourConfig& config,
-                                     const ImageRequest& request) {
-  std::vector<LightPicture> out;
-  std::optional<Error> ambiguous;
-  for (std::size_t i = 0; i < source.pictures().size(); ++i) {
-    const Picture& picture = source.pictures()[i];
-    if (!picture.readable) continue;
-    const bool part_chosen = !request.layer.empty() && picture.name == request.layer;
-    LightPicture light;
-    light.index = i;
-    light.channels = colour_of(source, i, part_chosen ? "" : request.layer, ambiguous);
-    if (light.channels.kind != Kind::none) out.push_back(light);
-  }
-  if (out.empty() && ambiguous) throw *ambiguous;
-  if (out.empty()) fail_without_light(source, request.layer);
-  if (request.layer.empty()) keep_pictures(source, out);
-  for (LightPicture& light : out) choose_space(source, config, request, light);
-  return out;
-}
 
 std::string listed(const std::vector<PixelType>& types) {
   std::string out;
@@ -157,7 +57,7 @@ bool is_display_encoding(const ColourConfig& config, const ColourSpace& space) {
 ColourSpace night_space(const std::string& output, const ColourConfig& config, const ImageRequest& request,
                         const LightPicture& light, bool from_integer) {
   if (!request.night_display.empty()) return config.display_space(request.night_display);
-  if (from_integer && is_display_encoding(config, light.space)) return light.space;
+  if (from_integer && can_be_stated(light.space, false, false) && is_display_encoding(config, light.space)) return light.space;
   const ColourSpace named = config.space_of_file(output, true);
   if (is_display_encoding(config, named)) return named;
   throw Error(ExitCode::config, config.file(),
@@ -201,7 +101,10 @@ ColourSpace choose_output_space(const PixelSource& source, const std::string& ou
   if (request.output_colourspace) return config.space(*request.output_colourspace);
   if (request.view) return config.view(*request.view);
   if (request.profile) return {request.profile->description(), std::nullopt, std::nullopt, request.profile};
-  if (is_integer(in) == is_integer(out)) return light.space;
+  const bool exr = layout.format == "openexr";
+  const bool named = source.format() == "openexr" && !request.colourspace && !picture.colour.interop_id.empty();
+  const bool stays = !light.channels.xyz && can_be_stated(light.space, exr, named);
+  if (is_integer(in) == is_integer(out) && stays) return light.space;
   return is_integer(out) ? config.space_of_file(output, true) : config.space(config.working_space());
 }
 
@@ -221,7 +124,7 @@ std::vector<Channel> output_channels(const Picture& picture, const LightPicture&
   for (std::size_t i = 0; i < 3; ++i) {
     std::string name = keep_others ? prefix + names[i] : names[i];
     // Its own name, where the file writes it another way.
-    if (colour.kind == Kind::rgb && keep_others) name = picture.channels[colour.index[i]].name;
+    if (colour.kind == Kind::rgb && !colour.xyz && keep_others) name = picture.channels[colour.index[i]].name;
     out.push_back({name, type_of(colour.kind == Kind::grey ? 0 : i)});
   }
   for (std::size_t c = 0; c < picture.channels.size(); ++c) {
@@ -252,16 +155,10 @@ OutputPicture light_output(const PixelSource& source, const LightPicture& light,
   if (layout.format == "png") out.picture.unassociated_alpha = true;
   const bool receptors = light.channels.kind == Kind::lmsr || light.channels.kind == Kind::computed;
   out.new_space = receptors || !config.same(light.space, layout.output_space);
-  const std::optional<Matrix3<double>> xyz = config.linear_xyz(layout.output_space);
-  if (const NamedPrimaries* known = xyz ? match_matrix(*xyz) : nullptr) out.primaries = known->primaries;
-  if (xyz && is_cie_xyz(*xyz)) {
-    out.primaries = cie_xyz_primaries();
-    out.adopted_neutral = white_d65;
-  }
+  out.tags = written_tags(layout.output_space, config);
+  out.new_tags = out.new_space || request.colourspace || !light.conflicts.empty() || source.format() != layout.format;
   out.for_a_device = layout.output_space.for_a_device();
-  out.profile = request.profile;
   out.jpeg_quality = request.jpeg_quality;
-  out.srgb = config.is_srgb(layout.output_space);
   return out;
 }
 
@@ -274,12 +171,27 @@ void note_losses(const PixelSource& source, ImageLayout& layout) {
                            " holds only the first here");
   const OutputPicture& out = layout.outputs.front();
   const Picture& picture = source.pictures()[out.source];
+  const PixelType colour = picture.channels.empty() ? PixelType::float32 : picture.channels.front().type;
+  if (layout.format == "tiff" && colour == PixelType::half && out.picture.channels.front().type == PixelType::float32)
+    layout.notes.push_back("half becomes float: few programs read a TIFF of half");
   if (picture.data != picture.display) layout.notes.push_back("only the data window is written");
   const std::size_t colours = layout.light.front().channels.count();
   const std::size_t others = picture.channels.size() - std::min(picture.channels.size(), colours);
   const std::size_t kept = out.picture.channels.size() - 3;
   if (others > kept)
     layout.notes.push_back(std::to_string(others - kept) + " other channels are not written");
+}
+
+/// Of the first picture with light: the others are read in the same way.
+void note_colours(const PixelSource& source, ImageLayout& layout) {
+  const LightPicture& light = layout.light.front();
+  const std::vector<std::string>& read = source.pictures()[light.index].notes;
+  layout.notes.insert(layout.notes.end(), read.begin(), read.end());
+  layout.notes.insert(layout.notes.end(), light.conflicts.begin(), light.conflicts.end());
+  const OutputPicture& out = layout.outputs.front();
+  const bool said = layout.format == "openexr" ? out.tags.linear : out.tags.srgb || out.tags.icc;
+  if (out.new_tags && !said && !out.for_a_device)
+    layout.notes.push_back("values are written in '" + layout.output_space.name + "', which nothing in the file says");
 }
 
 }  // namespace
@@ -297,7 +209,9 @@ ImageLayout plan_layout(const PixelSource& source, const std::string& output, co
   layout.exposure = request.exposure;
   if (request.profile && layout.format == "openexr")
     throw Error(ExitCode::usage, output, "--icc: OpenEXR holds no profile; TIFF, PNG and JPEG do");
-  layout.light = find_light(source, config, request);
+  FoundLight found = find_light(source, config, request);
+  layout.light = std::move(found.light);
+  layout.notes = std::move(found.notes);
   layout.output_space = choose_output_space(source, output, config, request, layout);
   const bool whole = layout.format == "openexr" ? source.format() == "openexr" : false;
   const bool pages = layout.format == "tiff" && source.format() == "tiff";
@@ -315,6 +229,7 @@ ImageLayout plan_layout(const PixelSource& source, const std::string& output, co
     }
   }
   note_losses(source, layout);
+  note_colours(source, layout);
   return layout;
 }
 

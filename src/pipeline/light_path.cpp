@@ -24,11 +24,33 @@ PixelRows LightRow::pixels(bool receptors) {
   return rows;
 }
 
+namespace {
+
+bool is_share(float alpha) { return alpha > 0 && std::isfinite(alpha); }
+
+/// `again`: it was divided by before, where it could be.
+void multiply_by_alpha(LightRow& row, bool again) {
+  for (std::vector<float>* plane : {&row.r, &row.g, &row.b})
+    for (std::size_t i = 0; i < plane->size(); ++i)
+      if (again ? is_share(row.alpha[i]) : std::isfinite(row.alpha[i])) (*plane)[i] *= row.alpha[i];
+}
+
+}  // namespace
+
+// Colour beside an alpha that is no number stays colour; beside 0 it is light that is added to what lies behind.
+void divide_by_alpha(LightRow& row) {
+  for (std::vector<float>* plane : {&row.r, &row.g, &row.b})
+    for (std::size_t i = 0; i < plane->size(); ++i)
+      if (is_share(row.alpha[i])) (*plane)[i] /= row.alpha[i];
+}
+
 LightReader::LightReader(const ColourChannels& channels, const ColourConfig& config, const ColourSpace& space)
     : channels_(channels),
       working_from_xyz_(inverse(config.xyz_from_working())),
       xyz_from_lms_(xyz_from_lms()) {
-  if (!receptors()) to_working_ = config.to_working(space);
+  if (receptors()) return;
+  to_working_ = config.to_working(space);
+  encoded_ = channels_.alpha && !config.linear_xyz(space);
 }
 
 bool LightReader::receptors() const noexcept {
@@ -75,28 +97,22 @@ void LightReader::read(const Band& band, int row, LightRow& out) const {
       set_rgb_from_xyz(xyz ? Vec3<double>{plane(4)[i], plane(5)[i], plane(6)[i]}
                            : xyz_from_lms_ * Vec3<double>{out.cone_l[i], out.cone_m[i], out.cone_s[i]}, i, out);
   }
+  const bool again = encoded_ && !channels_.straight;
+  if (again) divide_by_alpha(out);
   to_working_.apply(out.r.data(), out.g.data(), out.b.data(), width);
+  if (again || (channels_.alpha && channels_.straight)) multiply_by_alpha(out, again);
 }
 
 namespace {
 
-/// What comes between the operator's result and the file's values. Colour beside an alpha that is no number stays colour.
+/// What comes between the operator's result and the file's values.
 void convert(const LightWriter& to, LightRow& light) {
-  const std::size_t width = light.r.size();
-  std::vector<float>* const planes[3] = {&light.r, &light.g, &light.b};
-  if (to.alpha == AlphaChange::unassociate) {
-    for (std::vector<float>* plane : planes)
-      for (std::size_t i = 0; i < width; ++i)
-        if (light.alpha[i] > 0 && std::isfinite(light.alpha[i])) (*plane)[i] /= light.alpha[i];
-  }
+  if (to.divide_by_alpha) divide_by_alpha(light);
   if (to.gain != 1)
-    for (std::vector<float>* plane : planes)
+    for (std::vector<float>* plane : {&light.r, &light.g, &light.b})
       for (float& value : *plane) value *= to.gain;
-  to.from_working.apply(light.r.data(), light.g.data(), light.b.data(), width);
-  if (to.alpha == AlphaChange::associate)
-    for (std::vector<float>* plane : planes)
-      for (std::size_t i = 0; i < width; ++i)
-        if (std::isfinite(light.alpha[i])) (*plane)[i] *= light.alpha[i];
+  to.from_working.apply(light.r.data(), light.g.data(), light.b.data(), light.r.size());
+  if (to.multiply_by_alpha) multiply_by_alpha(light, true);
 }
 
 }  // namespace

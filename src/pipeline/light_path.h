@@ -33,11 +33,15 @@ struct LightRow {
   std::vector<std::uint8_t> touched;
 };
 
+/// Divides colour by alpha where that is a number above 0.
+void divide_by_alpha(LightRow& row);
+
 /// Reads rows of one picture as light. Immutable: share it between threads.
 class LightReader {
  public:
   /// `space` is that of RGB and grey channels. LMSR channels and computed signals become working RGB through
-  /// XYZ: signals in luminance units, 1 of them standing for the image's unit.
+  /// XYZ: signals in luminance units, 1 of them standing for the image's unit. Straight alpha (`channels.straight`) is
+  /// multiplied into light; what alpha was multiplied into after a curve is divided by it before that is undone.
   LightReader(const ColourChannels& channels, const ColourConfig& config, const ColourSpace& space);
 
   /// Row `row` of a band; any thread.
@@ -50,18 +54,18 @@ class LightReader {
 
   ColourChannels channels_;
   RowConverter to_working_;
+  bool encoded_ = false;
   Matrix3<double> working_from_xyz_;
   Matrix3<double> xyz_from_lms_;
 };
-
-/// What alpha does to colour on the way from one file format to another.
-enum class AlphaChange { none, associate, unassociate };
 
 /// Writes light as rows of three colour channels.
 struct LightWriter {
   RowConverter from_working;
   float gain = 1;  ///< of exposure
-  AlphaChange alpha = AlphaChange::none;
+  /// Light is what alpha has been multiplied into: straight values are divided by it, encoded ones before the curve.
+  bool divide_by_alpha = false;
+  bool multiply_by_alpha = false;  ///< encoded values, after the curve
   /// Pixels that the operator left alone keep the bytes of the file, channel by channel where the types
   /// agree. True only if nothing else changes the values: same space, gain 1, alpha as it was.
   bool keep_untouched = false;

@@ -129,8 +129,8 @@ void make_lmsr_layout(ImageLayout& layout, const std::string& output) {
         channels.push_back(out.picture.channels[c]);
     out.picture.channels = std::move(channels);
     out.new_space = true;
-    out.primaries.reset();
-    out.srgb = false;
+    out.new_tags = true;
+    out.tags = {};
   }
 }
 

@@ -1,4 +1,4 @@
-#include "io/picture.h"
+#include "io/light_channels.h"
 
 #include <gtest/gtest.h>
 

@@ -248,8 +248,8 @@ TEST(ApplyImage, another_type_and_space_can_be_asked_for) {
   request.output_colourspace = "ACEScg";
   run_operator(temporary("in.exr"), temporary("out.exr"), 10, request);
   ExrSource out(temporary("out.exr"), Limits());
-  ASSERT_TRUE(out.pictures()[0].primaries.has_value());
-  EXPECT_EQ(match_primaries(*out.pictures()[0].primaries)->name, "ap1");
+  ASSERT_TRUE(out.pictures()[0].colour.primaries.has_value());
+  EXPECT_EQ(match_primaries(*out.pictures()[0].colour.primaries)->name, "ap1");
   for (const Channel& channel : out.pictures()[0].channels)
     EXPECT_EQ(channel.type, channel.name == "A" ? PixelType::half : PixelType::float32) << channel.name;
   // And back: what the file states about itself is enough.

@@ -93,12 +93,9 @@ AcuityChoice understand(const AcuityOptions& o) {
   return out;
 }
 
-bool is_panorama(const AcuityChoice& choice, const PixelSource& source, const ImageLayout& layout) {
-  return choice.panorama.value_or(is_lat_long(source, layout));
-}
+namespace {
 
-AngularResolution angular_resolution(const AcuityChoice& choice, const PixelSource& source,
-                                     const ImageLayout& layout) {
+AngularResolution resolution_across(const AcuityChoice& choice, const PixelSource& source, const ImageLayout& layout) {
   if (choice.pixels_per_degree) return {*choice.pixels_per_degree, true, "--ppd"};
   const double width = display_width(source, layout);
   if (choice.field_of_view) return {pixels_per_degree(width, *choice.field_of_view), true, "--fov"};
@@ -112,6 +109,19 @@ AngularResolution angular_resolution(const AcuityChoice& choice, const PixelSour
   return {60.0, false, "not known: --fov or --ppd tells"};
 }
 
+}  // namespace
+
+bool is_panorama(const AcuityChoice& choice, const PixelSource& source, const ImageLayout& layout) {
+  return choice.panorama.value_or(is_lat_long(source, layout));
+}
+
+AngularResolution angular_resolution(const AcuityChoice& choice, const PixelSource& source,
+                                     const ImageLayout& layout) {
+  AngularResolution out = resolution_across(choice, source, layout);
+  out.pixel_aspect = source.pictures()[layout.light.front().index].pixel_aspect;
+  return out;
+}
+
 std::unique_ptr<SpatialFilter> acuity_filter(const AcuityChoice& choice, const AppearanceParameters& scene,
                                              const AngularResolution& resolution, const Console& console) {
   AcuityParameters p = choice.parameters;
@@ -119,6 +129,7 @@ std::unique_ptr<SpatialFilter> acuity_filter(const AcuityChoice& choice, const A
   const double ppd = resolution.pixels_per_degree, cutoff = acuity_cutoff(scene.adaptation);
   const std::string known = fmt::format("{:.3g} pixels per degree ({})", ppd, resolution.source);
   p.sigma = acuity_sigma_pixels(scene.adaptation, ppd);
+  p.pixel_aspect = resolution.pixel_aspect;
   p.white = scene.adaptation / 0.18 / scene.white_luminance;
   p.xyz_from_rgb = scene.xyz_from_rgb;
   console.note(fmt::format("acuity: {:.3g} cycles/degree are resolved, sigma {}{:.3g} pixels; {}", cutoff,

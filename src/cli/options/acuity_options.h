@@ -40,6 +40,7 @@ struct AngularResolution {
   double pixels_per_degree = 60.0;
   bool known = false;
   std::string source;
+  double pixel_aspect = 1;  ///< width over height of a pixel; the above is across
 };
 
 void add_acuity_options(CLI::App& verb, AcuityOptions& options);
@@ -52,7 +53,7 @@ AcuityChoice understand(const AcuityOptions& options);
 AngularResolution angular_resolution(const AcuityChoice& choice, const PixelSource& source,
                                      const ImageLayout& layout);
 
-/// Whether the picture is a panorama whose left side is right of its right one: as told, else as the file says.
+/// Whether its left side lies beside its right one: --projection, else what an EXR's envmap says.
 bool is_panorama(const AcuityChoice& choice, const PixelSource& source, const ImageLayout& layout);
 
 /// The filter of a scene, for a plan that runs it.

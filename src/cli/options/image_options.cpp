@@ -1,5 +1,6 @@
 #include "cli/options/image_options.h"
 
+#include "cli/console.h"
 #include "cli/options/values.h"
 
 namespace scotopic {
@@ -7,7 +8,7 @@ namespace scotopic {
 namespace {
 
 void add_limit(CLI::App& verb, const char* name, std::int64_t& value, const char* text) {
-  verb.add_option(name, value, text)->check(CLI::PositiveNumber)->group("Limits")->capture_default_str();
+  verb.add_option(name, value, text)->check(whole_number(1, std::int64_t{1} << 62))->group("Limits")->capture_default_str();
 }
 
 }  // namespace

@@ -79,10 +79,15 @@ void add_band_options(CLI::App& verb, BandOptions& o) {
       "L,M,S,R");
 }
 
+// Of light of one wavelength it runs from 6e-4 (700 nm) to 59 (400 nm); of anything that has a luminance it lies within.
+constexpr double least_sp_ratio = 1e-3, greatest_sp_ratio = 1e3;
+
 IlluminantChoice understand_illuminant(const std::string& text) {
   IlluminantChoice choice;
   choice.name = text;
   if (const std::optional<double> ratio = parse_sp_ratio(text)) {
+    if (!(*ratio >= least_sp_ratio && *ratio <= greatest_sp_ratio))
+      fail_value("--illuminant", text, "an S/P ratio from 0.001 to 1000");
     choice.sp_ratio = *ratio;
     choice.spectrum = illuminant_spectrum(text);
     return choice;
@@ -95,7 +100,7 @@ IlluminantChoice understand_illuminant(const std::string& text) {
   std::vector<std::string> names;
   for (const NamedIlluminant& illuminant : named_illuminants()) names.emplace_back(illuminant.name);
   fail_value("--illuminant", text,
-             "an S/P ratio above 0, a file with a spectrum, or one of " + illuminant_names() +
+             "an S/P ratio from 0.001 to 1000, a file with a spectrum, or one of " + illuminant_names() +
                  did_you_mean(text, names));
 }
 

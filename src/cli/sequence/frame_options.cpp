@@ -1,3 +1,4 @@
+#include "cli/console.h"
 #include "cli/sequence/frame_options.h"
 
 #include <fmt/format.h>
@@ -66,7 +67,7 @@ void add_reading_frame_options(CLI::App& verb, FrameOptions& o) {
   verb.add_flag("--continue-on-error", o.continue_on_error, "Go on after a frame that fails; told of at the end")
       ->group(group);
   verb.add_option("--frames-at-once", o.at_once, "Frames under way: one is read while another is computed or written")
-      ->check(CLI::Range(1, 8))
+      ->check(whole_number(1, 8))
       ->type_name("N")
       ->group(group)
       ->capture_default_str();

@@ -112,7 +112,7 @@ void check_acuity_memory(const SpatialFilter& acuity, const PixelSource& source,
                          const Limits& limits) {
   for (const LightPicture& light : layout.light) {
     const Picture& picture = source.pictures()[light.index];
-    check_limit(source.file(), "bytes of memory planned", planned_bytes(picture) + acuity_bytes(acuity, picture),
+    check_limit(source.file(), "bytes of memory planned", planned_bytes(picture) + acuity_bytes(acuity, picture, layout.wraps),
                 limits.memory, "--max-memory");
   }
 }
@@ -200,6 +200,7 @@ ApplyJob::Seen ApplyJob::look(const FramePaths& paths, const Console& console) c
   const MeteredScene metered = meter(scene, settings_, false);
   frame.numbers = metered.numbers;
   frame.resolution = angular_resolution(settings_.acuity, source, scene.layout);
+  scene.layout.wraps = is_panorama(settings_.acuity, source, scene.layout);
   std::optional<SceneStatistics> statistics = metered.statistics;
   add_glare(frame, statistics);
   console.note(source.file() + ": " + describe(frame.numbers));

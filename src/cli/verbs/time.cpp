@@ -201,9 +201,11 @@ void add_time(CLI::App& program, Invocation& invocation) {
                   "Image to time on; else a night by formula, adaptation 0.1 unless given")
       ->type_name("IN");
   verb.add_option("--pixels", options->pixels, "Times are taken on so many, the image repeated")
+      ->check(whole_number(1, 1 << 30))
       ->type_name("N")
       ->capture_default_str();
   verb.add_option("--rounds", options->rounds, "Each way in turn, so often; medians are shown")
+      ->check(whole_number(1, 10000))
       ->type_name("N")
       ->capture_default_str();
   verb.add_option("--plot", options->plot, "Error against time of the operator's ways, as SVG")

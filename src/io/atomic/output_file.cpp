@@ -96,6 +96,7 @@ int sync_folder(const std::string& folder) {
 }  // namespace
 
 OutputFile::OutputFile(const std::string& path) : path_(path), target_(followed(path)) {
+  if (path == "-") refuse(path_, "standard output cannot be written to: name a file (./- for one of that name)");
   struct stat info = {};
   const bool exists = stat(target_.c_str(), &info) == 0;
   // A name that is too long, a folder that may not be entered: better known now than after the work.

@@ -26,6 +26,7 @@
 #include "io/exr/exr_source.h"
 #include "io/exr/open_exr.h"
 #include "io/pixel_sink.h"
+#include "io/scan/stale_metadata.h"
 
 namespace scotopic {
 namespace {
@@ -64,6 +65,7 @@ class ExrReadBack : public Imf::IStream {
 
 void set_attribute(Imf::Header& header, const Attribute& attribute) {
   const char* name = attribute.name.c_str();
+  header.erase(name);  // OpenEXR holds to the type that it had
   if (const auto* text = std::get_if<std::string>(&attribute.value))
     header.insert(name, Imf::StringAttribute(*text));
   else if (const auto* number = std::get_if<double>(&attribute.value))
@@ -110,7 +112,6 @@ void make_lossless(Imf::Header& header) {
   const bool lossy = c == Imf::B44_COMPRESSION || c == Imf::B44A_COMPRESSION || c == Imf::DWAA_COMPRESSION ||
                      c == Imf::DWAB_COMPRESSION || c == Imf::PXR24_COMPRESSION;
   if (!lossy) return;
-  header.setType(Imf::SCANLINEIMAGE);
   header.compression() = Imf::ZIP_COMPRESSION;
   header.erase("dwaCompressionLevel");
 }
@@ -192,14 +193,22 @@ class ExrSink : public PixelSink {
     Imf::Header header = exr ? exr->header(out.picture.part) : make_header(source, out.picture, out.source);
     set_channels(header, out.picture.channels);
     make_lossless(header);
-    if (out.new_space) {
-      for (const char* name : {"chromaticities", "adoptedNeutral"}) header.erase(name);
-      if (out.primaries) set_primaries(header, *out.primaries);
-      if (out.adopted_neutral) Imf::addAdoptedNeutral(header, v2f(*out.adopted_neutral));
+    erase_if(header, describes_pixels);
+    if (out.new_tags) {
+      erase_if(header, describes_colours);
+      if (out.tags.primaries) set_primaries(header, *out.tags.primaries);
+      if (out.tags.adopted_neutral) Imf::addAdoptedNeutral(header, v2f(*out.tags.adopted_neutral));
     }
     if (out.for_a_device) header.erase("whiteLuminance");
     for (const Attribute& stamp : out.stamps) set_attribute(header, stamp);
     return header;
+  }
+
+  static void erase_if(Imf::Header& header, bool (*stale)(std::string_view)) {
+    std::vector<std::string> names;
+    for (auto it = header.begin(); it != header.end(); ++it)
+      if (stale(it.name())) names.push_back(it.name());
+    for (const std::string& name : names) header.erase(name);
   }
 
   static Imath::V2f v2f(Xy c) { return {static_cast<float>(c.x), static_cast<float>(c.y)}; }

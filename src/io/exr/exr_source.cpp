@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <exception>
 #include <new>
 
@@ -29,6 +30,11 @@ namespace {
 
 bool is_deep(const Imf::Header& header) {
   return header.hasType() && (header.type() == Imf::DEEPSCANLINE || header.type() == Imf::DEEPTILE);
+}
+
+bool is_luminance_chroma(const Imf::Header& header) {
+  const Imf::ChannelList& channels = header.channels();
+  return !is_deep(header) && channels.findChannel("Y") && channels.findChannel("RY") && channels.findChannel("BY");
 }
 
 bool is_tiled(const Imf::Header& header) { return header.hasTileDescription(); }
@@ -52,6 +58,24 @@ std::optional<Primaries> primaries_of(const Imf::Header& header) {
   const Imf::Chromaticities& c = Imf::chromaticities(header);
   const auto xy = [](const Imath::V2f& v) { return Xy{v.x, v.y}; };
   return Primaries{xy(c.red), xy(c.green), xy(c.blue), xy(c.white)};
+}
+
+std::string text_attribute(const Imf::Header& header, const char* name) {
+  const auto* found = header.findTypedAttribute<Imf::StringAttribute>(name);
+  return found ? found->value() : "";
+}
+
+/// By the Color Interop Forum's "Identifying the Color Space of OpenEXR Files" the first part's identifier holds for the
+/// whole file; other parts need none, but may be data.
+ColourTags colour_tags(const Imf::Header& header, const Imf::Header& first) {
+  ColourTags tags;
+  const auto* container = header.findTypedAttribute<Imf::IntAttribute>("acesImageContainerFlag");
+  tags.aces_container = container && container->value() == 1;
+  tags.interop_id = text_attribute(header, "colorInteropID");
+  if (tags.interop_id.empty()) tags.interop_id = text_attribute(first, "colorInteropID");
+  tags.primaries = primaries_of(header);
+  tags.adopted_neutral = adopted_neutral_of(header);
+  return tags;
 }
 
 Window window_of(const Imath::Box2i& box) {
@@ -146,11 +170,12 @@ void ExrSource::add_pictures(int part) {
   Picture picture;
   picture.part = part;
   picture.name = header.hasName() ? header.name() : "";
+  picture.pixel_aspect = usable_aspect(static_cast<double>(header.pixelAspectRatio()));
+  picture.view = header.hasView() ? header.view() : "";
   picture.data = window_of(header.dataWindow());
   picture.display = window_of(header.displayWindow());
   picture.readable = !is_deep(header);
-  picture.primaries = primaries_of(header);
-  picture.adopted_neutral = adopted_neutral_of(header);
+  picture.colour = colour_tags(header, exr_->header(0));
   picture.white_luminance = float_attribute(header, "whiteLuminance");
   picture.lmsr_unit = float_attribute(header, "scotopic:lmsrUnit");
   picture.chunk_rows = rows_compressed_together(header);
@@ -159,6 +184,7 @@ void ExrSource::add_pictures(int part) {
     picture.channels.push_back({it.name(), pixel_type(it.channel().type)});
     if (it.channel().xSampling != 1 || it.channel().ySampling != 1) picture.readable = false;
   }
+  if (is_luminance_chroma(header) && exr_->parts() == 1) return add_luminance_chroma(picture);
   if (!is_tiled(header) || !picture.readable) {
     pictures_.push_back(picture);
     return;
@@ -175,6 +201,30 @@ void ExrSource::add_pictures(int part) {
       pictures_.push_back(picture);
     }
   }
+}
+
+/// Colour that is stored as luminance and subsampled chroma: OpenEXR itself makes R, G, B of it, in half.
+void ExrSource::add_luminance_chroma(Picture picture) {
+  rgba_ = std::make_unique<Imf::RgbaInputFile>(file().c_str());
+  picture.readable = true;
+  picture.chunk_rows = 1;
+  picture.channels.clear();
+  for (const char* name : {"R", "G", "B"}) picture.channels.push_back({name, PixelType::half});
+  if ((rgba_->channels() & Imf::WRITE_A) != 0) picture.channels.push_back({"A", PixelType::half});
+  picture.notes.push_back("luminance and chroma (Y, RY, BY) become R, G, B of half; its other channels are left out");
+  pictures_.push_back(picture);
+}
+
+void ExrSource::read_luminance_chroma(const Picture& picture, int y0, int rows, Band& band) {
+  const auto width = static_cast<std::size_t>(picture.data.width());
+  std::vector<Imf::Rgba> pixels(width * static_cast<std::size_t>(rows));
+  rgba_->setFrameBuffer(pixels.data() - picture.data.x0 - static_cast<std::ptrdiff_t>(y0) * picture.data.width(), 1, width);
+  rgba_->readPixels(y0, y0 + rows - 1);
+  for (std::size_t c = 0; c < picture.channels.size(); ++c)
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const Imath::half values[4] = {pixels[i].r, pixels[i].g, pixels[i].b, pixels[i].a};
+      std::memcpy(band.channels[c].data + 2 * i, &values[c], 2);
+    }
 }
 
 void ExrSource::read_scanlines(const Picture& picture, const Imf::FrameBuffer& frame, int y0, int rows) {
@@ -195,6 +245,7 @@ void ExrSource::read(std::size_t index, int y0, int rows, Band& band) {
   const Picture& picture = pictures_[index];
   band.allocate_planar(picture.channels, y0, rows, picture.data.width());
   try {
+    if (rgba_) return read_luminance_chroma(picture, y0, rows, band);
     const Imf::FrameBuffer frame = frame_buffer(picture.channels, band, picture.data.x0);
     if (tiled_.count(picture.part))
       read_tiles(picture, frame, y0, rows);

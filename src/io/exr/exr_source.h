@@ -5,6 +5,7 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfPixelType.h>
+#include <OpenEXR/ImfRgbaFile.h>
 #include <OpenEXR/ImfTiledInputPart.h>
 
 #include <map>
@@ -31,10 +32,13 @@ class ExrSource : public PixelSource {
 
  private:
   void add_pictures(int part);
+  void add_luminance_chroma(Picture picture);
+  void read_luminance_chroma(const Picture& picture, int y0, int rows, Band& band);
   void read_scanlines(const Picture& picture, const Imf::FrameBuffer& frame, int y0, int rows);
   void read_tiles(const Picture& picture, const Imf::FrameBuffer& frame, int y0, int rows);
 
   std::unique_ptr<Imf::MultiPartInputFile> exr_;
+  std::unique_ptr<Imf::RgbaInputFile> rgba_;  // of luminance and chroma
   // Kept between bands: it caches the tile row it reads.
   std::map<int, std::unique_ptr<Imf::TiledInputPart>> tiled_;
 };

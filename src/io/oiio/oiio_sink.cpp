@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "io/oiio/oiio_source.h"
+#include "io/scan/stale_metadata.h"
 
 namespace scotopic {
 namespace {
@@ -121,11 +122,11 @@ class OiioSink : public PixelSink {
   void write(std::size_t index, const Band& band) override {
     if (!opened_ || index != current_) open(index);
     const OIIO::ImageSpec& spec = specs_[index];
-    const int y1 = band.y0 + band.rows;
+    const int y0 = band.y0 - pictures_[index].picture.data.y0 + spec.y, y1 = y0 + band.rows;
     const bool ok = spec.tile_width
-                        ? output_->write_tiles(spec.x, spec.x + spec.width, band.y0, y1, 0, 1, spec.format,
+                        ? output_->write_tiles(spec.x, spec.x + spec.width, y0, y1, 0, 1, spec.format,
                                                band.storage.data())
-                        : output_->write_scanlines(band.y0, y1, 0, spec.format, band.storage.data());
+                        : output_->write_scanlines(y0, y1, 0, spec.format, band.storage.data());
     if (!ok) fail(output_->geterror());
     file_.check();
     hashes_[index] = hash_of(band.storage, hashes_[index]);
@@ -218,21 +219,40 @@ class OiioSink : public PixelSink {
       spec.attribute("jpeg:subsampling", "4:4:4");
     }
     spec.erase_attribute("oiio:BitsPerSample");
-    if (out.new_space) spec.erase_attribute("ICCProfile");
-    if (out.new_space || !oiio) spec.attribute("oiio:ColorSpace", out.srgb ? "sRGB" : "Linear");
-    // The profile alone says what the values mean.
-    if (out.profile) set_profile(spec, out.profile->bytes());
+    spec.attribute("Orientation", 1);  // sources are upright
+    erase_if(spec, describes_pixels);
+    spec.attribute("ImageDescription", without_pixel_facts(spec.get_string_attribute("ImageDescription")));
+    if (out.new_tags || out.tags.icc) erase_if(spec, describes_colours);
+    if (out.new_tags && out.tags.srgb) spec.attribute("oiio:ColorSpace", "sRGB");
+    if (out.new_tags && out.tags.linear) spec.attribute("oiio:ColorSpace", "Linear");
+    if (needs_profile(out.tags)) set_profile(spec, *out.tags.icc);
     spec.attribute("oiio:UnassociatedAlpha", picture.unassociated_alpha ? 1 : 0);
     set_stamps(spec, format_, out.stamps);
     return spec;
   }
 
+  static void erase_if(OIIO::ImageSpec& spec, bool (*stale)(std::string_view)) {
+    std::vector<std::string> names;
+    for (const OIIO::ParamValue& p : spec.extra_attribs)
+      if (stale(p.name().string())) names.push_back(p.name().string());
+    for (const std::string& name : names) spec.erase_attribute(name);
+  }
+
+  /// Linear light of BT.709 is what float TIFF is taken to be, and gAMA 1 says it in PNG.
+  bool needs_profile(const WrittenTags& tags) const {
+    if (!tags.icc) return false;
+    const NamedPrimaries* known = tags.linear && tags.primaries ? match_primaries(*tags.primaries) : nullptr;
+    const bool usual = known && known->name == "rec709";
+    return !usual || !(format_ == "png" || !is_integer(pictures_.front().picture.channels.front().type));
+  }
+
   static void set_profile(OIIO::ImageSpec& spec, const std::vector<std::byte>& profile) {
+    // The profile alone says what the values mean.
     for (const char* name : {"oiio:ColorSpace", "oiio:Gamma", "png:gAMA", "Exif:ColorSpace"}) spec.erase_attribute(name);
     spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(profile.size())), profile.data());
   }
 
-  static void set_geometry(OIIO::ImageSpec& spec, const Picture& picture) {
+  void set_geometry(OIIO::ImageSpec& spec, const Picture& picture) const {
     spec.x = picture.data.x0;
     spec.y = picture.data.y0;
     spec.width = picture.data.width();
@@ -243,6 +263,12 @@ class OiioSink : public PixelSink {
     spec.full_width = picture.display.width();
     spec.full_height = picture.display.height();
     spec.full_depth = 1;
+    // PNG and JPEG have no place for an offset, TIFF none for a negative one.
+    if (format_ != "tiff" || spec.x < 0 || spec.y < 0) {
+      spec.x = spec.y = spec.full_x = spec.full_y = 0;
+      spec.full_width = spec.width;
+      spec.full_height = spec.height;
+    }
     spec.nchannels = static_cast<int>(picture.channels.size());
     spec.channelformats.clear();
     spec.channelnames.clear();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <array>
 #include <map>
 #include <mutex>
 
@@ -86,6 +87,7 @@ OiioSource::OiioSource(const std::string& file, const std::string& format, const
   const StderrHeld held;
   watch(file);
   lift_limits_of_oiio();
+  scans_ = scan_image(file, format);
   if (!input_->open(file, spec, hints)) fail("is not a valid " + format + " file: " + input_->geterror());
   for (int page = 0; input_->seek_subimage(page, 0); ++page) {
     add_picture(page, input_->spec());
@@ -111,22 +113,81 @@ void OiioSource::add_picture(int page, const OIIO::ImageSpec& spec) {
   picture.library_bytes = bytes_held_by_oiio(spec);
   picture.unassociated_alpha = spec.get_int_attribute("oiio:UnassociatedAlpha", 0) != 0;
   picture.white_luminance = float_attribute(spec, "whiteLuminance");
+  scans_.resize(std::max(scans_.size(), pictures_.size() + 1));
+  ImageScan& scan = scans_[pictures_.size()];
+  // Of Radiance's order of pixels OpenImageIO tells by the same name.
+  scan.orientation = spec.get_int_attribute("Orientation", scan.orientation);
+  if (scan.orientation < 1 || scan.orientation > 8) scan.orientation = 1;
+  picture.pixel_aspect = usable_aspect(static_cast<double>(spec.get_float_attribute("PixelAspectRatio", 1.0f)));
+  if (turns(scan.orientation)) picture.pixel_aspect = 1 / picture.pixel_aspect;
+  set_colour(picture, scan);
+  set_upright(picture, scan);
   pictures_.push_back(picture);
   specs_.push_back(spec);
 }
 
-void OiioSource::read(std::size_t index, int y0, int rows, Band& band) {
-  const Picture& picture = pictures_[index];
+void OiioSource::set_colour(Picture& picture, ImageScan& scan) const {
+  if (scan.xyz)
+    for (std::size_t c = 0; c < 3 && c < picture.channels.size(); ++c) picture.channels[c].name = std::string(1, "XYZ"[c]);
+  picture.colour = scan.colour;
+  if (scan.gain_map)
+    picture.notes.push_back("its gain map is left out: the picture is the rendition for SDR displays");
+  if (scan.exposure != 1 || scan.correction != std::array<double, 3>{1, 1, 1})
+    picture.notes.push_back("values are divided by its EXPOSURE and COLORCORR: they are light again");
+}
+
+/// A page that is to be turned is read whole, into memory that is planned for.
+void OiioSource::set_upright(Picture& picture, const ImageScan& scan) const {
+  if (scan.orientation == 1) return;
+  const int width = picture.data.width(), height = picture.data.height();
+  picture.library_bytes += static_cast<std::int64_t>(row_bytes(picture)) * height;
+  picture.data = turns(scan.orientation) ? Window{0, 0, height, width} : Window{0, 0, width, height};
+  picture.display = picture.data;
+  picture.chunk_rows = 1;
+  picture.notes.push_back(std::string("is ") + orientation_words(scan.orientation) + " to be upright, as its orientation has it");
+}
+
+void OiioSource::read_stored(std::size_t index, int y0, int rows, std::byte* out) {
   const OIIO::ImageSpec& spec = specs_[index];
-  const int page = picture.part;
-  band.allocate_interleaved(picture.channels, y0, rows, picture.data.width());
+  const int page = pictures_[index].part;
   const StderrHeld held;
   const bool ok = spec.tile_width
-                      ? input_->read_tiles(page, 0, picture.data.x0, picture.data.x1, y0, y0 + rows, spec.z,
-                                           spec.z + 1, 0, spec.nchannels, spec.format, band.storage.data())
-                      : input_->read_scanlines(page, 0, y0, y0 + rows, spec.z, 0, spec.nchannels, spec.format,
-                                               band.storage.data());
+                      ? input_->read_tiles(page, 0, spec.x, spec.x + spec.width, y0, y0 + rows, spec.z, spec.z + 1, 0,
+                                           spec.nchannels, spec.format, out)
+                      : input_->read_scanlines(page, 0, y0, y0 + rows, spec.z, 0, spec.nchannels, spec.format, out);
   if (!ok || input_->has_error()) fail("is truncated or damaged: " + input_->geterror());
+}
+
+void OiioSource::read_upright(std::size_t index, int y0, int rows, std::byte* out) {
+  const OIIO::ImageSpec& spec = specs_[index];
+  if (page_index_ != index) {
+    page_.width = static_cast<std::size_t>(spec.width);
+    page_.height = static_cast<std::size_t>(spec.height);
+    page_.pixel = spec.pixel_bytes(true);
+    page_.bytes.resize(page_.width * page_.height * page_.pixel);
+    read_stored(index, spec.y, spec.height, page_.bytes.data());
+    page_index_ = index;
+  }
+  copy_upright(page_, scans_[index].orientation, static_cast<std::size_t>(y0), static_cast<std::size_t>(rows), out);
+}
+
+void OiioSource::correct_exposure(const ImageScan& scan, Band& band) const {
+  if (scan.exposure == 1 && scan.correction == std::array<double, 3>{1, 1, 1}) return;
+  const std::size_t values = band.storage.size() / sizeof(float);
+  const std::size_t channels = band.channels.size();
+  auto* const at = reinterpret_cast<float*>(band.storage.data());
+  for (std::size_t i = 0; i < values; ++i)
+    at[i] = static_cast<float>(at[i] / (scan.exposure * scan.correction[std::min<std::size_t>(i % channels, 2)]));
+}
+
+void OiioSource::read(std::size_t index, int y0, int rows, Band& band) {
+  const Picture& picture = pictures_[index];
+  band.allocate_interleaved(picture.channels, y0, rows, picture.data.width());
+  if (scans_[index].orientation == 1)
+    read_stored(index, y0, rows, band.storage.data());
+  else
+    read_upright(index, y0, rows, band.storage.data());
+  correct_exposure(scans_[index], band);
 }
 
 std::vector<Attribute> OiioSource::attributes(std::size_t index) const {

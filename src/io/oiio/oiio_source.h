@@ -3,11 +3,15 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include <cstdint>
+
+#include "io/oiio/oriented_page.h"
 #include "io/pixel_source.h"
+#include "io/scan/image_scan.h"
 
 namespace scotopic {
 
-/// One picture for each page (TIFF), else one.
+/// One picture for each page (TIFF), else one; upright, whichever way it is stored.
 class OiioSource : public PixelSource {
  public:
   /// Reads the header. Throws Error(input) or Error(limit).
@@ -21,9 +25,17 @@ class OiioSource : public PixelSource {
 
  private:
   void add_picture(int page, const OIIO::ImageSpec& spec);
+  void set_colour(Picture& picture, ImageScan& scan) const;
+  void set_upright(Picture& picture, const ImageScan& scan) const;
+  void read_stored(std::size_t index, int y0, int rows, std::byte* out);
+  void read_upright(std::size_t index, int y0, int rows, std::byte* out);
+  void correct_exposure(const ImageScan& scan, Band& band) const;
 
   std::unique_ptr<OIIO::ImageInput> input_;
   std::vector<OIIO::ImageSpec> specs_;  // one for each picture
+  std::vector<ImageScan> scans_;        // likewise
+  StoredPage page_;                     // the one that is being turned
+  std::size_t page_index_ = SIZE_MAX;
 };
 
 /// A file whose format is known already: tiff, png, jpeg, hdr.

@@ -20,6 +20,7 @@ struct Constants {
   float rgb_from_f3[3][3] = {};  ///< its inverse
   float lab_scale = 0;           ///< scaled = lab_scale * CIELAB
   float space_scale = 0;         ///< 1/(2 sigma^2 weight_end)
+  float pixel_aspect = 1;
   float strength = 1;
   float split_variance = 0;  ///< scaled variance above which a cell is divided
   float per_pitch = 0;       ///< scaled CIELAB to steps of the lattice whose colours a palette merges

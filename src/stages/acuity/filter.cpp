@@ -83,6 +83,8 @@ namespace {
 
 void check(const AcuityParameters& p) {
   require(std::isfinite(p.sigma) && p.sigma >= 0.0 && p.sigma <= 1e4, "sigma must be 0 ... 1e4 pixels");
+  require(p.pixel_aspect >= 0.1 && p.pixel_aspect <= 10.0, "pixel_aspect must be 0.1 ... 10");
+  require(p.pixel_aspect == 1.0 || p.engine != AcuityEngine::cells, "cells takes pixels for square");
   require(std::isfinite(p.range_sigma) && p.range_sigma > 0.0, "range_sigma must be > 0");
   require(std::isfinite(p.white) && p.white > 0.0, "white must be > 0");
   require(p.strength >= 0.0 && p.strength <= 1.0, "strength must be 0 ... 1");
@@ -97,7 +99,7 @@ int cell_of(double sigma, const Tuning& tuning) {
 /// Cells are no gain where they hold a pixel or two, nor where a block is large against sigma.
 AcuityEngine engine_of(const AcuityParameters& p, const Tuning& tuning) {
   if (p.engine != AcuityEngine::automatic) return p.engine;
-  return p.sigma < 3.5 || cell_of(p.sigma, tuning) < 2 ? AcuityEngine::window : AcuityEngine::cells;
+  return p.pixel_aspect != 1.0 || p.sigma < 3.5 || cell_of(p.sigma, tuning) < 2 ? AcuityEngine::window : AcuityEngine::cells;
 }
 
 Constants constants_of(const AcuityParameters& p, const Tuning& tuning, AcuityEngine engine) {
@@ -110,6 +112,7 @@ Constants constants_of(const AcuityParameters& p, const Tuning& tuning, AcuityEn
   copy_matrix(inverse(relative), c.rgb_from_f3);
   c.lab_scale = static_cast<float>(1.0 / (std::sqrt(2.0 * acuity::weight_end) * p.range_sigma));
   c.strength = static_cast<float>(p.strength);
+  c.pixel_aspect = static_cast<float>(p.pixel_aspect);
   c.space = p.space;
   c.radius = reach * p.sigma;
   const double sigma = p.sigma * widened_sigma(reach);
@@ -135,10 +138,10 @@ AcuityFilter::AcuityFilter(const AcuityParameters& p) {
   auto plan = std::make_unique<Plan>();
   const Tuning tuning = tuning_of(p.quality);
   plan->engine = engine_of(p, tuning);
-  plan->identity = p.strength == 0.0 || p.sigma * tuning.window_reach < 1.0;
+  plan->identity = p.strength == 0.0 || p.sigma * std::max(1.0, p.pixel_aspect) * tuning.window_reach < 1.0;
   if (!plan->identity) {
     const Constants& c = plan->constants = constants_of(p, tuning, plan->engine);
-    plan->reach = static_cast<int>(std::ceil(c.radius));
+    plan->reach = static_cast<int>(std::ceil(c.radius * std::max(1.0, p.pixel_aspect)));
     plan->halo = plan->reach;
     // A cell within reach must lie in the window whole.
     if (plan->engine == AcuityEngine::cells) plan->halo += c.cell + std::max(c.block_width, c.block_height);

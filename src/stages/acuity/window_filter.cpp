@@ -71,11 +71,14 @@ struct Tap {
 
 std::vector<Tap> disc(const Constants& c, std::ptrdiff_t row_stride) {
   std::vector<Tap> taps;
-  const int reach = static_cast<int>(c.radius);
-  for (int dy = -reach; dy <= reach; ++dy)
-    for (int dx = -reach; dx <= reach; ++dx)
-      if (dx * dx + dy * dy <= c.radius * c.radius)
-        taps.push_back({dy * row_stride + dx, 1.0f - c.space_scale * static_cast<float>(dx * dx + dy * dy)});
+  const double aspect = static_cast<double>(c.pixel_aspect);
+  const int across = static_cast<int>(c.radius), down = static_cast<int>(c.radius * aspect);
+  for (int dy = -down; dy <= down; ++dy)
+    for (int dx = -across; dx <= across; ++dx) {
+      const double square = dx * dx + dy * dy / (aspect * aspect);
+      if (square <= c.radius * c.radius)
+        taps.push_back({dy * row_stride + dx, 1.0f - c.space_scale * static_cast<float>(square)});
+    }
   return taps;
 }
 

@@ -1,0 +1,257 @@
+#include "io/light_channels.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "base/error.h"
+
+namespace scotopic {
+namespace {
+
+using Kind = ColourChannels::Kind;
+
+// Words in lower case; letters alone count where they are all of a name.
+constexpr std::array<std::string_view, 47> data_words = {"crypto",
+                                                         "cryptomatte",
+                                                         "cryptoobject",
+                                                         "cryptomaterial",
+                                                         "cryptoasset",
+                                                         "normal",
+                                                         "normals",
+                                                         "n",
+                                                         "ng",
+                                                         "nn",
+                                                         "nworld",
+                                                         "ncamera",
+                                                         "nref",
+                                                         "depth",
+                                                         "z",
+                                                         "zdepth",
+                                                         "zback",
+                                                         "position",
+                                                         "positions",
+                                                         "p",
+                                                         "pworld",
+                                                         "pcamera",
+                                                         "pref",
+                                                         "worldposition",
+                                                         "motion",
+                                                         "motionvector",
+                                                         "motionvectors",
+                                                         "vector",
+                                                         "velocity",
+                                                         "uv",
+                                                         "st",
+                                                         "id",
+                                                         "ids",
+                                                         "objectid",
+                                                         "materialid",
+                                                         "instanceid",
+                                                         "index",
+                                                         "indexob",
+                                                         "indexma",
+                                                         "mist",
+                                                         "tangent",
+                                                         "tangents",
+                                                         "variance",
+                                                         "samplecount",
+                                                         "matte",
+                                                         "mattes",
+                                                         "mask"};
+constexpr std::array<std::string_view, 9> beauty_words = {"beauty", "combined", "rgb",   "rgba",  "ci",
+                                                          "final",  "master",   "color", "colour"};
+
+char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+
+std::string lowered(std::string_view text) {
+  std::string out;
+  for (const char c : text) out += lower(c);
+  return out;
+}
+
+/// Runs of letters, cut where a capital follows a small one; each also with its neighbour ("motionVector").
+std::vector<std::string> words_of(std::string_view name) {
+  std::vector<std::string> out;
+  char before = ' ';
+  for (const char c : name) {
+    const bool letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
+    const bool starts =
+        !std::isalpha(static_cast<unsigned char>(before)) ||
+        (std::isupper(static_cast<unsigned char>(c)) && std::islower(static_cast<unsigned char>(before)));
+    if (letter && starts) out.emplace_back();
+    if (letter) out.back() += lower(c);
+    before = c;
+  }
+  return out;
+}
+
+template <std::size_t n>
+bool has_word(const std::array<std::string_view, n>& list, std::string_view name) {
+  const auto listed = [&](const std::string& word) {
+    return std::find(list.begin(), list.end(), word) != list.end();
+  };
+  const std::string last = lowered(name.substr(name.rfind('.') + 1));
+  if (listed(last)) return true;
+  const std::vector<std::string> words = words_of(name);
+  return std::any_of(words.begin(), words.end(),
+                     [&](const std::string& w) { return w.size() > 1 && listed(w); });
+}
+
+/// Channels of one layer by their last name; layer "" is the topmost.
+using Layer = std::map<std::string, std::size_t>;
+
+std::map<std::string, Layer> layers_of(const std::vector<Channel>& channels) {
+  std::map<std::string, Layer> out;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    if (channels[i].type == PixelType::uint32) continue;  // identifiers
+    const std::string& name = channels[i].name;
+    const std::size_t dot = name.rfind('.');
+    const bool top = dot == std::string::npos;
+    out[top ? "" : name.substr(0, dot)].emplace(top ? name : name.substr(dot + 1), i);
+  }
+  return out;
+}
+
+/// Indices of `names` where the layer has them all.
+std::optional<std::vector<std::size_t>> all_of(const Layer& layer, const std::vector<std::string>& names) {
+  std::vector<std::size_t> out;
+  for (const std::string& name : names) {
+    const auto found = layer.find(name);
+    if (found == layer.end()) return std::nullopt;
+    out.push_back(found->second);
+  }
+  return out;
+}
+
+void find_alpha(const Layer& layer, ColourChannels& out) {
+  for (const char* alpha : {"A", "a", "alpha", "Alpha"})
+    if (const auto found = layer.find(alpha); found != layer.end() && !out.alpha) out.alpha = found->second;
+}
+
+ColourChannels colour_in(const std::string& name, const Layer& layer) {
+  ColourChannels out;
+  out.layer = name;
+  const auto take = [&](Kind kind, const std::vector<std::string>& names) {
+    const auto found = all_of(layer, names);
+    if (out.kind != Kind::none || !found) return false;
+    out.kind = kind;
+    std::copy(found->begin(), found->end(), out.index.begin());
+    return true;
+  };
+  take(Kind::rgb, {"R", "G", "B"});
+  take(Kind::rgb, {"r", "g", "b"});
+  take(Kind::rgb, {"red", "green", "blue"});
+  take(Kind::rgb, {"Red", "Green", "Blue"});
+  take(Kind::lmsr, {"L", "M", "S", "R"});
+  // Under a name they are a position or a normal.
+  if (name.empty()) out.xyz = take(Kind::rgb, {"X", "Y", "Z"});
+  find_alpha(layer, out);
+  return out;
+}
+
+ColourChannels grey_in(const std::string& name, const Layer& layer) {
+  ColourChannels out;
+  const auto luminance = layer.find("Y");
+  // Y with RY and BY is luminance and chroma: its colour would be lost. With X it is a position.
+  if (luminance == layer.end() || layer.count("RY") || layer.count("BY") || layer.count("X")) return out;
+  out.kind = Kind::grey;
+  out.layer = name;
+  out.index[0] = luminance->second;
+  find_alpha(layer, out);
+  return out;
+}
+
+ColourChannels any_in(const std::string& name, const Layer& layer) {
+  const ColourChannels colour = colour_in(name, layer);
+  return colour.kind == Kind::none ? grey_in(name, layer) : colour;
+}
+
+/// The only one, or the only beauty; Error(usage) for several, none for none.
+ColourChannels only_one(const std::vector<ColourChannels>& candidates, const std::string& file) {
+  if (candidates.empty()) return {};
+  if (candidates.size() == 1) return candidates.front();
+  std::vector<std::string> names;
+  std::vector<ColourChannels> beauties;
+  for (const ColourChannels& c : candidates) {
+    names.push_back(c.layer);
+    if (is_beauty_name(c.layer)) beauties.push_back(c);
+  }
+  if (beauties.size() == 1) return beauties.front();
+  throw Error(ExitCode::usage, file,
+              "has colour in several layers (" + name_list(names) + "); choose with --layer");
+}
+
+}  // namespace
+
+bool is_data_name(std::string_view name) { return has_word(data_words, name); }
+
+bool is_beauty_name(std::string_view name) { return has_word(beauty_words, name); }
+
+bool looks_spectral(std::string_view channel) {
+  const std::string name = lowered(channel);
+  const auto digits_before = [&](std::size_t at) {
+    while (at > 0 && name[at - 1] == ' ') --at;
+    return at > 0 && std::isdigit(static_cast<unsigned char>(name[at - 1]));
+  };
+  for (std::size_t at = name.find("nm"); at != std::string::npos; at = name.find("nm", at + 1))
+    if (digits_before(at)) return true;
+  for (std::size_t at = name.find("band"); at != std::string::npos; at = name.find("band", at + 1))
+    if (at + 4 < name.size() && std::isdigit(static_cast<unsigned char>(name[at + 4]))) return true;
+  const std::string last = name.substr(name.rfind('.') + 1);
+  return last.size() == 3 && last >= "300" && last <= "900" &&
+         std::all_of(last.begin(), last.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+std::string name_list(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 8;
+  std::string out;
+  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) out += (i ? ", " : "") + names[i];
+  return names.size() > most ? out + ", ... (" + std::to_string(names.size()) + " in all)" : out;
+}
+
+std::string channel_list(const std::vector<Picture>& pictures) {
+  constexpr std::size_t most = 16;
+  std::vector<std::string> names;
+  for (const Picture& picture : pictures)
+    for (const Channel& channel : picture.channels) {
+      const std::string name = (picture.name.empty() ? "" : picture.name + ":") + channel.name;
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  std::string out;
+  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) out += (i ? ", " : "") + names[i];
+  return names.size() > most ? out + ", ... (" + std::to_string(names.size()) + " in all)" : out;
+}
+
+std::vector<std::string> colour_layers(const Picture& picture) {
+  std::vector<std::string> out;
+  for (const auto& [name, layer] : layers_of(picture.channels))
+    if (any_in(name, layer).kind != Kind::none) out.push_back(name);
+  return out;
+}
+
+ColourChannels find_colour(const Picture& picture, const std::string& layer, const std::string& file) {
+  const std::map<std::string, Layer> layers = layers_of(picture.channels);
+  if (!layer.empty()) {
+    const auto found = layers.find(layer);
+    return found == layers.end() ? ColourChannels{} : any_in(layer, found->second);
+  }
+  std::vector<ColourChannels> colours, receptors, greys;
+  for (const auto& [name, channels] : layers) {
+    const ColourChannels colour = colour_in(name, channels);
+    if (name.empty() && colour.kind != Kind::none) return colour;
+    if (is_data_name(name)) continue;
+    if (colour.kind == Kind::rgb) colours.push_back(colour);
+    if (colour.kind == Kind::lmsr) receptors.push_back(colour);
+    if (const ColourChannels grey = grey_in(name, channels); grey.kind != Kind::none) greys.push_back(grey);
+  }
+  for (const std::vector<ColourChannels>* list : {&colours, &receptors})
+    if (!list->empty()) return only_one(*list, file);
+  if (!greys.empty() && greys.front().layer.empty()) return greys.front();
+  return only_one(greys, file);
+}
+
+}  // namespace scotopic

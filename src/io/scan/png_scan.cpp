@@ -1,0 +1,121 @@
+// Chunks of a PNG (W3C PNG, third edition, 11.3).
+#include <zlib.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "base/error.h"
+#include "color/icc/icc_check.h"
+#include "io/scan/file_bytes.h"
+#include "io/scan/image_scan.h"
+
+namespace scotopic {
+namespace {
+
+constexpr std::size_t signature_size = 8;
+constexpr std::uint64_t most_chunk_bytes = std::uint64_t{64} << 20;  // of those that are looked into
+
+using Bytes = std::vector<std::byte>;
+
+/// zlib's stream, no longer than most_icc_bytes; as far as it goes.
+Bytes inflated(std::span<const std::byte> packed) {
+  Bytes out;
+  z_stream stream{};
+  if (inflateInit(&stream) != Z_OK) return out;
+  stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(packed.data()));
+  stream.avail_in = static_cast<uInt>(packed.size());
+  Bytes piece(65536);
+  for (int state = Z_OK; state == Z_OK && out.size() <= most_icc_bytes;) {
+    stream.next_out = reinterpret_cast<Bytef*>(piece.data());
+    stream.avail_out = static_cast<uInt>(piece.size());
+    state = inflate(&stream, Z_NO_FLUSH);
+    const std::size_t got = piece.size() - stream.avail_out;
+    if (got == 0) break;
+    out.insert(out.end(), piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(got));
+  }
+  inflateEnd(&stream);
+  return out;
+}
+
+/// Text up to a NUL; `at` is after it.
+std::string_view text_at(std::span<const std::byte> chunk, std::size_t& at) {
+  const std::string_view all(reinterpret_cast<const char*>(chunk.data()), chunk.size());
+  const std::size_t from = std::min(at, all.size());
+  const std::size_t end = std::min(all.find('\0', from), all.size());
+  at = std::min(end + 1, all.size());
+  return all.substr(from, end - from);
+}
+
+double fixed_point(const Bytes& chunk, std::size_t at) {
+  return static_cast<double>(number_at(chunk, at, 4, true)) / 100000;
+}
+
+void read_chromaticities(const Bytes& chunk, ColourTags& tags) {
+  if (chunk.size() != 32) return;
+  const auto xy = [&](std::size_t i) { return Xy{fixed_point(chunk, 8 * i), fixed_point(chunk, 8 * i + 4)}; };
+  tags.primaries = Primaries{xy(1), xy(2), xy(3), xy(0)};
+}
+
+void read_text(const std::string& type, const Bytes& chunk, const std::string& file, ImageScan& scan) {
+  std::size_t at = 0;
+  if (text_at(chunk, at) != "XML:com.adobe.xmp") return;
+  bool packed = type == "zTXt";
+  if (packed) ++at;
+  if (type == "iTXt") {
+    packed = number_at(chunk, at, 1, true) != 0;
+    at += 2;
+    text_at(chunk, at);
+    text_at(chunk, at);
+  }
+  const auto rest = std::span(chunk).subspan(std::min(at, chunk.size()));
+  if (packed)
+    check_xmp(inflated(rest), file, scan);
+  else
+    check_xmp(rest, file, scan);
+}
+
+void read_chunk(const std::string& type, const Bytes& chunk, const std::string& file, ImageScan& scan) {
+  ColourTags& tags = scan.colour;
+  if (type == "iCCP") {
+    std::size_t at = 0;
+    text_at(chunk, at);
+    keep_profile(inflated(std::span(chunk).subspan(std::min(at + 1, chunk.size()))), file, scan);
+  } else if (type == "cICP" && chunk.size() == 4) {
+    const auto code = [&](std::size_t i) { return std::to_integer<int>(chunk[i]); };
+    tags.code_points = CodePoints{code(0), code(1), code(2), code(3) != 0};
+  } else if (type == "gAMA" && chunk.size() == 4 && number_at(chunk, 0, 4, true) > 0) {
+    tags.gamma = 1 / fixed_point(chunk, 0);
+  } else if (type == "cHRM") {
+    read_chromaticities(chunk, tags);
+  } else if (type == "sRGB") {
+    tags.srgb = true;
+  } else if (type == "eXIf") {
+    read_exif(chunk, scan);
+  } else {
+    read_text(type, chunk, file, scan);
+  }
+}
+
+}  // namespace
+
+ImageScan scan_png(const std::string& file) {
+  static constexpr std::string_view wanted[] = {"iCCP", "cICP", "gAMA", "cHRM", "sRGB",
+                                                "eXIf", "tEXt", "zTXt", "iTXt"};
+  ImageScan scan;
+  FileBytes bytes(file);
+  for (std::uint64_t at = signature_size; at + 12 <= bytes.size();) {
+    const Bytes head = bytes.at(at, 8);
+    const std::uint64_t size = number_at(head, 0, 4, true);
+    const std::string type(reinterpret_cast<const char*>(head.data()) + 4, 4);
+    if (type == "IEND") break;
+    if (std::find(std::begin(wanted), std::end(wanted), type) != std::end(wanted)) {
+      if (size > most_chunk_bytes)
+        throw Error(ExitCode::input, file, "is damaged: a chunk " + type + " is larger than any");
+      read_chunk(type, bytes.at(at + 8, size), file, scan);
+    }
+    at += size + 12;
+  }
+  return scan;
+}
+
+}  // namespace scotopic
