@@ -32,7 +32,8 @@ HWY_INLINE void show_vector(D d, const WideNumbers<DisplayConstants<hn::TFromD<D
   if (n.none(n.both(changed, operable))) return;
   std::uint8_t bits[8] = {};
   hn::StoreMaskBits(d, n.both(changed, operable), bits);
-  for (std::size_t i = 0; i < hn::Lanes(d); ++i) touched[at + i] |= bits[i / 8] >> (i % 8) & 1u;
+  for (std::size_t i = 0; i < hn::Lanes(d); ++i)
+    touched[at + i] = static_cast<std::uint8_t>(touched[at + i] | (bits[i / 8] >> (i % 8) & 1u));
 }
 
 template <typename T>
@@ -49,7 +50,8 @@ void show_rows(const WideNumbers<DisplayConstants<T>>& k, const DisplaySwitches&
   show_vector(d, k, on, padded.rows, 0, touched_copy);
   padded.out(rows, at, rows.count - at);
   if (touched)
-    for (std::size_t i = at; i < rows.count; ++i) touched[i] |= touched_copy[i - at];
+    for (std::size_t i = at; i < rows.count; ++i)
+      touched[i] = static_cast<std::uint8_t>(touched[i] | touched_copy[i - at]);
 }
 
 void show_single(const WideNumbers<DisplayConstants<float>>& k, const DisplaySwitches& on, const PixelRows& rows,

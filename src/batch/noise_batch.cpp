@@ -100,7 +100,8 @@ HWY_INLINE void noise_vector(D d, const WideNumbers<RodNoiseConstants<hn::TFromD
   if (n.none(changed)) return;
   std::uint8_t bits[8] = {};
   hn::StoreMaskBits(d, changed, bits);
-  for (std::size_t i = 0; i < hn::Lanes(d); ++i) touched[at + i] |= bits[i / 8] >> (i % 8) & 1u;
+  for (std::size_t i = 0; i < hn::Lanes(d); ++i)
+    touched[at + i] = static_cast<std::uint8_t>(touched[at + i] | (bits[i / 8] >> (i % 8) & 1u));
 }
 
 template <typename T>
@@ -118,7 +119,8 @@ void noise_rest(const WideNumbers<RodNoiseConstants<T>>& k, const PixelRows& row
   noise_vector(Tag<T>(), k, padded.rows, {rod, local}, n, 0, changed);
   padded.out(rows, at, count);
   if (touched)
-    for (std::size_t i = 0; i < count; ++i) touched[at + i] |= changed[i];
+    for (std::size_t i = 0; i < count; ++i)
+      touched[at + i] = static_cast<std::uint8_t>(touched[at + i] | changed[i]);
 }
 
 template <typename T>

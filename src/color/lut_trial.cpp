@@ -26,7 +26,7 @@ namespace {
 
 constexpr int no_memory = 1;
 
-rlim_t bytes_mapped() {
+[[maybe_unused]] rlim_t bytes_mapped() {
   std::ifstream statm("/proc/self/statm");
   rlim_t pages = 0;
   statm >> pages;
