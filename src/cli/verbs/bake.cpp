@@ -11,6 +11,7 @@
 #include "looks/lut/look_chain.h"
 #include "looks/config/look_set.h"
 #include "looks/chain/read_back.h"
+#include "cli/options/image_options.h"
 #include "cli/options/operator_options.h"
 #include "cli/program.h"
 #include "cli/options/values.h"
@@ -88,9 +89,7 @@ LookSpec spec_for(OperatorChoice choice, const BakeOptions& o, const ColourConfi
                   double adaptation) {
   set_primaries(choice, config);
   LookSpec spec;
-  spec.parameters = choice.parameters;
-  spec.parameters.adaptation = adaptation;
-  spec.parameters.white_luminance = choice.white_luminance.value_or(adaptation / 0.18);
+  spec.parameters = parameters_of(choice, adaptation);
   spec.gamut = choice.gamut;
   spec.edge = edge_of(o);
   spec.space = o.colourspace.empty() ? config.working_space() : config.resolve(o.colourspace);

@@ -1,4 +1,4 @@
-#include "pipeline/acuity_rows.h"
+#include "pipeline/rows/acuity_rows.h"
 
 #include <algorithm>
 #include <cstring>
@@ -18,7 +18,8 @@ std::int64_t acuity_bytes(const SpatialFilter& filter, const Picture& picture, b
          waiting * (rest * picture.data.width() + of_file);
 }
 
-AcuityRows::AcuityRows(const SpatialFilter& filter, const Window& data, bool descending, bool alpha, bool wraps)
+AcuityRows::AcuityRows(const SpatialFilter& filter, const Window& data, bool descending, bool alpha,
+                       bool wraps)
     : filter_(filter),
       data_(data),
       descending_(descending),
@@ -101,7 +102,8 @@ void AcuityRows::filter_band() {
                             come_ - forgotten_,
                             stride_,
                             data_.height()};
-  const AcuityTile tile{out_[0].data(), out_[1].data(), out_[2].data(), width, pad_, y, width, now_.band.rows};
+  const AcuityTile tile{out_[0].data(), out_[1].data(), out_[2].data(), width, pad_, y,
+                        width,          now_.band.rows};
   filter_.filter(window, tile, [](int count, const std::function<void(int)>& task) {
     parallel_rows(count, 1, [&](int first, int last) {
       for (int i = first; i < last; ++i) task(i);

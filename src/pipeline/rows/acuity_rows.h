@@ -1,5 +1,5 @@
-// Bands of light on their way through a filter that looks at the rows around a band too (acuity, a display's base
-// layer): each band waits until they have come.
+// Bands of light on their way through a filter that looks at the rows around a band too (acuity, a display's
+// base layer): each band waits until they have come.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "stages/acuity/filter.h"
-#include "pipeline/light_path.h"
 #include "io/picture.h"
+#include "pipeline/rows/light_path.h"
+#include "stages/acuity/filter.h"
 
 namespace scotopic {
 
@@ -27,9 +27,10 @@ std::int64_t acuity_bytes(const SpatialFilter& filter, const Picture& picture, b
 /// the halo: memory does not grow with the height.
 class AcuityRows {
  public:
-  /// `filter` must outlive it; `data` is the picture's window; `alpha`: keep it beside the light; `wraps`: the last
-  /// column lies beside the first, as in a lat-long panorama.
-  AcuityRows(const SpatialFilter& filter, const Window& data, bool descending, bool alpha, bool wraps = false);
+  /// `filter` must outlive it; `data` is the picture's window; `alpha`: keep it beside the light; `wraps`:
+  /// the last column lies beside the first, as in a lat-long panorama.
+  AcuityRows(const SpatialFilter& filter, const Window& data, bool descending, bool alpha,
+             bool wraps = false);
 
   /// Makes room for the next band, and says where it lies until next() takes it.
   const Band* add(Band&& band);

@@ -1,4 +1,4 @@
-#include "pipeline/light_path.h"
+#include "pipeline/rows/light_path.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,8 @@ void multiply_by_alpha(LightRow& row, bool again) {
 
 }  // namespace
 
-// Colour beside an alpha that is no number stays colour; beside 0 it is light that is added to what lies behind.
+// Colour beside an alpha that is no number stays colour; beside 0 it is light that is added to what lies
+// behind.
 void divide_by_alpha(LightRow& row) {
   for (std::vector<float>* plane : {&row.r, &row.g, &row.b})
     for (std::size_t i = 0; i < plane->size(); ++i)
@@ -53,9 +54,7 @@ LightReader::LightReader(const ColourChannels& channels, const ColourConfig& con
   encoded_ = channels_.alpha && !config.linear_xyz(space);
 }
 
-bool LightReader::receptors() const noexcept {
-  return channels_.kind == ColourChannels::Kind::lmsr || channels_.kind == ColourChannels::Kind::computed;
-}
+bool LightReader::receptors() const noexcept { return has_receptors(channels_); }
 
 void LightReader::set_rgb_from_xyz(const Vec3<double>& xyz, std::size_t i, LightRow& out) const {
   const Vec3<double> rgb = working_from_xyz_ * xyz;
@@ -95,7 +94,8 @@ void LightReader::read(const Band& band, int row, LightRow& out) const {
     const bool xyz = !band.signals[4].empty();  // lmsr does without
     for (std::size_t i = 0; i < width; ++i)
       set_rgb_from_xyz(xyz ? Vec3<double>{plane(4)[i], plane(5)[i], plane(6)[i]}
-                           : xyz_from_lms_ * Vec3<double>{out.cone_l[i], out.cone_m[i], out.cone_s[i]}, i, out);
+                           : xyz_from_lms_ * Vec3<double>{out.cone_l[i], out.cone_m[i], out.cone_s[i]},
+                       i, out);
   }
   const bool again = encoded_ && !channels_.straight;
   if (again) divide_by_alpha(out);
@@ -120,7 +120,9 @@ void convert(const LightWriter& to, LightRow& light) {
 void LightWriter::write(LightRow& light, const NativeRow (&out)[3], const NativeRow (*source)[3]) const {
   const std::size_t width = light.r.size();
   const std::uint8_t* const touched = light.touched.data();
-  const auto keeps = [&](std::size_t c) { return keep_untouched && source && (*source)[c].type == out[c].type; };
+  const auto keeps = [&](std::size_t c) {
+    return keep_untouched && source && (*source)[c].type == out[c].type;
+  };
   if (keeps(0) && keeps(1) && keeps(2) && !std::memchr(touched, 1, width)) {
     for (std::size_t c = 0; c < 3; ++c) copy_pixels((*source)[c], width, out[c]);
     return;

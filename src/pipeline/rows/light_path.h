@@ -12,6 +12,11 @@
 
 namespace scotopic {
 
+/// Whether a picture's channels are, or become, signals of cones and rods.
+inline bool has_receptors(const ColourChannels& channels) noexcept {
+  return channels.kind == ColourChannels::Kind::lmsr || channels.kind == ColourChannels::Kind::computed;
+}
+
 /// One row as the operator takes it: linear working RGB, and receptor signals where the file has them.
 struct LightRow {
   /// Room for `width` pixels.
@@ -31,6 +36,7 @@ struct LightRow {
 
   std::vector<float> r, g, b, cone_l, cone_m, cone_s, rod, alpha;
   std::vector<std::uint8_t> touched;
+  std::vector<std::uint8_t> changed;  ///< where frame stages have changed light; empty: there were none
 };
 
 /// Divides colour by alpha where that is a number above 0.
@@ -40,8 +46,9 @@ void divide_by_alpha(LightRow& row);
 class LightReader {
  public:
   /// `space` is that of RGB and grey channels. LMSR channels and computed signals become working RGB through
-  /// XYZ: signals in luminance units, 1 of them standing for the image's unit. Straight alpha (`channels.straight`) is
-  /// multiplied into light; what alpha was multiplied into after a curve is divided by it before that is undone.
+  /// XYZ: signals in luminance units, 1 of them standing for the image's unit. Straight alpha
+  /// (`channels.straight`) is multiplied into light; what alpha was multiplied into after a curve is divided
+  /// by it before that is undone.
   LightReader(const ColourChannels& channels, const ColourConfig& config, const ColourSpace& space);
 
   /// Row `row` of a band; any thread.
@@ -63,7 +70,8 @@ class LightReader {
 struct LightWriter {
   RowConverter from_working;
   float gain = 1;  ///< of exposure
-  /// Light is what alpha has been multiplied into: straight values are divided by it, encoded ones before the curve.
+  /// Light is what alpha has been multiplied into: straight values are divided by it, encoded ones before the
+  /// curve.
   bool divide_by_alpha = false;
   bool multiply_by_alpha = false;  ///< encoded values, after the curve
   /// Pixels that the operator left alone keep the bytes of the file, channel by channel where the types

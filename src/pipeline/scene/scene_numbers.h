@@ -4,9 +4,10 @@
 #include <optional>
 #include <string>
 
-#include "cli/console.h"
-#include "cli/options/operator_options.h"
-#include "pipeline/apply_image.h"
+#include "io/pixel_source.h"
+#include "pipeline/notes.h"
+#include "pipeline/settings.h"
+#include "scene/scene_statistics.h"
 
 namespace scotopic {
 
@@ -15,21 +16,32 @@ struct SceneNumbers {
   double white_luminance = 0;  ///< cd/m2 of image value 1
   std::string adaptation_source;
   std::string white_luminance_source;
+  bool of_file = false;  ///< the unit is the file's own
 };
 
 /// What is known before a pixel is read.
 struct KnownNumbers {
-  std::optional<double> adaptation;       ///< --adaptation, or a shot's
+  std::optional<double> adaptation;  ///< --adaptation, or a shot's
   std::string adaptation_source = "--adaptation";
   std::optional<double> white_luminance;  ///< --white-luminance
   std::optional<double> file_unit;        ///< the file's own
   std::string file_unit_source;
-  std::string metering;                   ///< how the adaptation is metered, if it is
+  std::string metering;  ///< how the adaptation is metered, if it is
 };
+
+/// cd/m2 that value 1 of a picture stands for by its header, and how it is told.
+struct FileUnit {
+  std::optional<double> luminance;
+  std::string source;
+};
+FileUnit file_unit(const Picture& picture, ColourChannels::Kind kind);
 
 /// From the options and the file's header. A unit in the file that is no luminance is ignored, with a note.
 KnownNumbers known_numbers(const OperatorChoice& choice, const PixelSource& source, const ImageLayout& layout,
-                           const Console& console);
+                           const Notes& notes);
+
+/// The luminance that a method takes the eye to be adapted to, in image values.
+double metered(const SceneStatistics& statistics, const AdaptationMethod& method);
 
 /// True if the adaptation is to be metered. Error(usage) if that alone would not do: an average
 /// in image values tells no luminance where nobody knows the unit.

@@ -1,4 +1,4 @@
-#include "cli/scene/scene_numbers.h"
+#include "pipeline/scene/scene_numbers.h"
 
 #include <gtest/gtest.h>
 
