@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "base/error.h"
-#include "pipeline/notes.h"
 
 namespace scotopic {
 
@@ -49,8 +48,6 @@ class Console {
   void detail(const std::string& text) const;
   /// With --json: the verb's result, as one line on stdout.
   void result(const nlohmann::ordered_json& object) const;
-  /// For the pipeline's; while the console is there.
-  Notes notes() const;
   bool json() const noexcept { return options_.json; }
   const CommonOptions& options() const noexcept { return options_; }
 

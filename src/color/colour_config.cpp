@@ -10,8 +10,9 @@
 
 #include "color/base_config.h"
 #include "color/icc/embedded_profile.h"
+#include "color/config/config_glance.h"
 #include "base/error.h"
-#include "base/input_file.h"
+#include "color/config/lost_displays.h"
 #include "color/lut_files.h"
 #include "base/names.h"
 
@@ -115,44 +116,53 @@ void RowConverter::apply_embedded(float* r, float* g, float* b, std::size_t coun
   if (!decode_) embedded_->from_xyz(r, g, b, count);
 }
 
-ColourConfig::ColourConfig(OCIO::ConstConfigRcPtr config, std::string file, const Limits& limits)
+ColourConfig::ColourConfig(OCIO::ConstConfigRcPtr config, std::string file, const Limits& limits,
+                           const std::optional<Matrix3<double>>& working)
     : config_(std::move(config)), file_(std::move(file)), limits_(limits) {
   try {
     config_->validate();
   } catch (const OCIO::Exception& e) {
     fail(one_line(e.what()));
   }
-  const OCIO::ConstColorSpaceRcPtr working = config_->getColorSpace(OCIO::ROLE_SCENE_LINEAR);
-  if (!working) fail("the config has no role scene_linear, so there is no space to work in");
-  working_space_ = working->getName();
-  find_xyz();
+  const OCIO::ConstColorSpaceRcPtr scene_linear = config_->getColorSpace(OCIO::ROLE_SCENE_LINEAR);
+  if (!scene_linear) fail("the config has no role scene_linear, so there is no space to work in");
+  working_space_ = scene_linear->getName();
+  find_xyz(working);
 }
 
 ColourConfig ColourConfig::own() {
   silence_ocio();
-  return ColourConfig(make_base_config(), "", {});
+  return ColourConfig(make_base_config(), "", {}, std::nullopt);
 }
 
-ColourConfig ColourConfig::from_file(const std::string& file, const Limits& limits) {
+ColourConfig ColourConfig::from_file(const std::string& file, const Limits& limits,
+                                     const std::optional<Matrix3<double>>& working) {
   silence_ocio();
   require_readable_kind(file);
   // Younger OpenColorIO takes names of configs that it brings itself.
-  if (file.rfind("ocio://", 0) != 0) (void)check_input_file(file, ExitCode::config, limits.config, "--max-config-size");
+  if (file.rfind("ocio://", 0) != 0) require_modest_config(file, limits);
   OCIO::ConstConfigRcPtr config;
   try {
-    config = OCIO::Config::CreateFromFile(file.c_str());
+    const OCIO::ConfigRcPtr read = OCIO::Config::CreateFromFile(file.c_str())->createEditableCopy();
+    forget_lost_displays(*read);
+    config = read;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
-    throw Error(ExitCode::config, file, "not a colour config that can be read: " + one_line(e.what()));
+    const std::string newer = too_new(file);
+    throw Error(ExitCode::config, file,
+                newer.empty() ? "not a colour config that can be read: " + one_line(e.what()) : newer);
   }
-  return ColourConfig(std::move(config), file, limits);
+  return ColourConfig(std::move(config), file, limits, working);
 }
 
-ColourConfig ColourConfig::in_force(const std::string& file, const Limits& limits) {
-  if (!file.empty()) return from_file(file, limits);
+ColourConfig ColourConfig::in_force(const std::string& file, const Limits& limits,
+                                    const std::optional<Matrix3<double>>& working) {
   const char* environment = std::getenv("OCIO");
-  return environment && *environment ? from_file(environment, limits) : own();
+  const std::string source = file.empty() && environment ? environment : file;
+  ColourConfig config = source.empty() ? own() : from_file(source, limits, working);
+  if (source.empty() && working) config.find_xyz(working);
+  return config;
 }
 
 namespace {
@@ -223,7 +233,7 @@ std::optional<Matrix3<double>> ColourConfig::linear_matrix(const std::string& fr
 }
 
 /// Scene-referred ways first: the way to a display space goes through a view, which may be a tone map.
-void ColourConfig::find_xyz() {
+std::optional<Matrix3<double>> ColourConfig::interchange_matrix() const {
   std::optional<Matrix3<double>> xyz;
   if (config_->hasRole("aces_interchange")) {
     const std::optional<Matrix3<double>> ap0 = linear_matrix(working_space_, "aces_interchange");
@@ -231,9 +241,18 @@ void ColourConfig::find_xyz() {
   }
   for (const char* name : {"cie_xyz_d65_interchange", "CIE XYZ-D65", "XYZ"})
     if (!xyz && has_space(name)) xyz = linear_matrix(working_space_, name);
+  return xyz;
+}
+
+void ColourConfig::find_xyz(const std::optional<Matrix3<double>>& stated) {
+  const std::optional<Matrix3<double>> found = interchange_matrix();
+  if (stated && found && !same_matrix(*stated, *found))
+    fail("its own roles give '" + working_space_ + "' other primaries than --working-primaries");
+  const std::optional<Matrix3<double>> xyz = stated ? stated : found;
   if (!xyz)
     fail("no linear way from '" + working_space_ +
-         "' to CIE XYZ: the config needs the role aces_interchange or cie_xyz_d65_interchange");
+         "' to CIE XYZ: the config needs the role aces_interchange or cie_xyz_d65_interchange, or "
+         "--working-primaries says what it is (rec709, ap1, ...)");
   if (!(std::abs(determinant(*xyz)) > 1e-6)) fail("'" + working_space_ + "' to CIE XYZ cannot be inverted");
   const NamedPrimaries* known = match_matrix(*xyz);
   working_gamut_ = known ? std::string(known->name) : "";

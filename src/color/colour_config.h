@@ -83,15 +83,18 @@ struct RuledSpace {
 class ColourConfig {
  public:
   /// `file` if not empty, else the file $OCIO names, else the project's own config.
-  /// Configs and LUTs larger than `limits` are Error(limit).
-  static ColourConfig in_force(const std::string& file, const Limits& limits = {});
+  /// Configs and LUTs larger than `limits` are Error(limit). `working`: CIE XYZ (D65) from RGB of role scene_linear, for
+  /// configs whose roles do not say it; where they say another thing, Error(config).
+  static ColourConfig in_force(const std::string& file, const Limits& limits = {},
+                               const std::optional<Matrix3<double>>& working = std::nullopt);
   /// The project's own config.
   static ColourConfig own();
   /// This config; or, where it is the project's own and `view` is none of it, the one that is shipped with all looks and
   /// views - the same spaces -, where that is found beside the program or where it was installed.
   ColourConfig holding(const std::string& view) const;
   /// Read from a file.
-  static ColourConfig from_file(const std::string& file, const Limits& limits = {});
+  static ColourConfig from_file(const std::string& file, const Limits& limits = {},
+                                const std::optional<Matrix3<double>>& working = std::nullopt);
 
   /// As OCIO has it.
   const OCIO_NAMESPACE::ConstConfigRcPtr& ocio() const noexcept { return config_; }
@@ -148,8 +151,10 @@ class ColourConfig {
   RowConverter from_working(const ColourSpace& to) const;
 
  private:
-  ColourConfig(OCIO_NAMESPACE::ConstConfigRcPtr config, std::string file, const Limits& limits);
-  void find_xyz();
+  ColourConfig(OCIO_NAMESPACE::ConstConfigRcPtr config, std::string file, const Limits& limits,
+               const std::optional<Matrix3<double>>& working);
+  void find_xyz(const std::optional<Matrix3<double>>& stated);
+  std::optional<Matrix3<double>> interchange_matrix() const;
   std::optional<Matrix3<double>> linear_matrix(const std::string& from, const std::string& to) const;
   OCIO_NAMESPACE::ConstCPUProcessorRcPtr processor(const std::string& from, const std::string& to) const;
   OCIO_NAMESPACE::ConstCPUProcessorRcPtr processor(const DisplayView& to) const;

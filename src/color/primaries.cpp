@@ -97,9 +97,11 @@ const NamedPrimaries* match_primaries(const Primaries& p) {
   return nullptr;
 }
 
+bool same_matrix(const Matrix3<double>& a, const Matrix3<double>& b) { return largest_difference(a, b) <= matrix_tolerance; }
+
 const NamedPrimaries* match_matrix(const Matrix3<double>& m) {
   for (const NamedPrimaries& set : known_primaries())
-    if (largest_difference(m, xyz_d65_from_rgb(set.primaries)) <= matrix_tolerance) return &set;
+    if (same_matrix(m, xyz_d65_from_rgb(set.primaries))) return &set;
   return nullptr;
 }
 

@@ -64,6 +64,9 @@ bool is_cie_xyz(const Matrix3<double>& xyz_from_rgb);
 /// (Files hold them as float, often rounded to three or four digits.)
 const NamedPrimaries* match_primaries(const Primaries& primaries);
 
+/// Whether no element differs by more than 5e-4, as below.
+bool same_matrix(const Matrix3<double>& a, const Matrix3<double>& b);
+
 /// The known set whose xyz_d65_from_rgb differs from `m` by no more than 5e-4 in any element; nullptr if
 /// none. (Blender's matrices use a white of four digits and so differ by 2.3e-4; the sets differ by more than
 /// 1e-2.)

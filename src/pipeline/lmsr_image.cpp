@@ -1,11 +1,12 @@
 #include "pipeline/lmsr_image.h"
 
 #include <array>
+#include <atomic>
 #include <cstring>
 
 #include "base/error.h"
+#include "pipeline/non_finite.h"
 #include "io/row_bands.h"
-#include "pipeline/rows/light_path.h"
 #include "receptors/receptor_space.h"
 
 namespace scotopic {
@@ -24,13 +25,11 @@ class ReceptorRun {
  public:
   ReceptorRun(const PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
               const RodChoice& rods, const OutputPicture& out)
-      : picture_(source.pictures()[out.source]),
-        light_(*layout.light_of(out.source)),
+      : light_(*layout.light_of(out.source)),
         out_(out),
         reader_(light_.channels, config, light_.space),
         xyz_from_rgb_(config.xyz_from_working()),
-        rods_(rods),
-        tally_(picture_) {
+        rods_(rods) {
     const std::vector<Channel>& from = source.pictures()[out.source].channels;
     for (std::size_t o = receptor_names.size(); o < out.picture.channels.size(); ++o)
       for (std::size_t c = 0; c < from.size(); ++c)
@@ -49,7 +48,7 @@ class ReceptorRun {
   }
 
   /// Pixels of the source that are not.
-  NonFinitePixels non_finite() const { return tally_.found(); }
+  std::uint64_t non_finite() const noexcept { return non_finite_; }
 
  private:
   void run_row(const Band& in, int row, LightRow& light, Band& out) const {
@@ -63,11 +62,11 @@ class ReceptorRun {
       }
       if (!finite) {
         reader_.read(in, row, light);
-        count(in, row, light);
+        non_finite_ += count_non_finite(light.pixels(true));
       }
     } else {
       reader_.read(in, row, light);
-      count(in, row, light);
+      non_finite_ += count_non_finite(light.pixels(reader_.receptors()));
       if (!reader_.receptors()) see(light);
       const std::vector<float>* planes[] = {&light.cone_l, &light.cone_m, &light.cone_s, &light.rod};
       for (std::size_t s = 0; s < receptor_names.size(); ++s)
@@ -75,10 +74,6 @@ class ReceptorRun {
     }
     for (const auto& [to, from] : others_)
       copy(in.channels[from].row(row), out.channels[to].row(row), light.r);
-  }
-
-  void count(const Band& in, int row, LightRow& light) const {
-    tally_.add(non_finite_of(light.pixels(reader_.receptors())), picture_.data.x0, in.y0 + row);
   }
 
   /// Receptor signals of working RGB.
@@ -109,14 +104,13 @@ class ReceptorRun {
     }
   }
 
-  const Picture& picture_;
   const LightPicture& light_;
   const OutputPicture& out_;
   LightReader reader_;
   Matrix3<double> xyz_from_rgb_;
   RodChoice rods_;
   std::vector<std::pair<std::size_t, std::size_t>> others_;  // output channel, source channel
-  mutable NonFiniteTally tally_;
+  mutable std::atomic<std::uint64_t> non_finite_{0};
 };
 
 }  // namespace
@@ -140,12 +134,12 @@ void make_lmsr_layout(ImageLayout& layout, const std::string& output) {
   }
 }
 
-NonFinitePixels write_lmsr(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-                           const RodChoice& rods, OutputFile& file, const Progress& progress) {
+std::uint64_t write_lmsr(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+                         const RodChoice& rods, OutputFile& file, const Progress& progress) {
   const std::unique_ptr<PixelSink> sink = open_sink(layout.format, file, source, layout.outputs);
   const std::int64_t total = rows_to_write(layout);
   std::int64_t done = 0;
-  NonFinitePixels non_finite;
+  std::uint64_t non_finite = 0;
   Band in;
   Band out;
   for (std::size_t i = 0; i < layout.outputs.size(); ++i) {
@@ -162,7 +156,7 @@ NonFinitePixels write_lmsr(PixelSource& source, const ImageLayout& layout, const
       done += rows;
       if (progress) progress(done, total);
     });
-    non_finite.add(run.non_finite());
+    non_finite += run.non_finite();
   }
   sink->finish();
   source.require_unchanged();

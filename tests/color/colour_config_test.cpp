@@ -59,6 +59,16 @@ TEST(ColourConfig, any_scene_linear_space_is_found_as_xyz) {
   }
 }
 
+TEST(ColourConfig, an_active_display_that_is_not_there_is_no_reason_to_refuse_the_rest) {
+  const OCIO::ConfigRcPtr config = make_base_config();
+  config->setActiveDisplays("None, srgb - display");
+  EXPECT_THROW(config->validate(), OCIO::Exception);
+  const ColourConfig read = ColourConfig::from_file(saved(config, "active.ocio"));
+  EXPECT_EQ(read.ocio()->getNumDisplays(), 1);
+  config->setActiveDisplays("None");
+  EXPECT_THROW((void)ColourConfig::from_file(saved(config, "none.ocio")), Error);
+}
+
 TEST(ColourConfig, xyz_is_found_by_whichever_interchange_the_config_has) {
   const OCIO::ConfigRcPtr config = make_base_config();
   config->setRole("aces_interchange", nullptr);

@@ -159,7 +159,7 @@ const std::vector<WritingVerb>& writing_verbs() {
        {"out_0.1.cube", "out_1.cube"},
        true},
       {"bake config",
-       {"bake", "--adaptation", "0.1", "--size", "17", "--config", "@/show", "-q"},
+       {"bake", "--adaptation", "0.1", "--size", "17", "--config", "@/show", "--force", "-q"},
        {"show/config.ocio", "show/luts/MANIFEST"},
        true},
       {"bake new config", {"bake", "--adaptation", "0.1", "--size", "17", "--config", "@/a/show", "-q"}, {}, true},

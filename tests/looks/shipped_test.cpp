@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <sstream>
 
+#include "looks/config/manifest.h"
+#include "looks/config/own_mark.h"
 #include "looks/verify/inspect.h"
 #include "looks/lut/ladder.h"
 #include "looks/config/look_set.h"
@@ -48,7 +50,7 @@ TEST(Shipped, luts_manifest_and_configs_are_what_is_baked) {
   for (const TextFile& lut : set.luts)
     EXPECT_TRUE(test::read_text(root + "/luts/" + lut.name) == lut.text)
         << lut.name << " differs from what is baked";
-  expect_same_config("config.ocio", look_config_text(set));
+  expect_same_config("config.ocio", marked(look_config_text(set), SCOTOPIC_VERSION));
   const std::string manifest = test::read_text(root + "/luts/MANIFEST");
   const std::string command =
       "scotopic bake --adaptation ladder --model filament2021 --size 33 "

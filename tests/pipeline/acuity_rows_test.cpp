@@ -1,4 +1,4 @@
-#include "pipeline/rows/acuity_rows.h"
+#include "pipeline/acuity_rows.h"
 
 #include <gtest/gtest.h>
 

@@ -114,4 +114,93 @@ DisplayChoice understand(const DisplayOptions& o, ImageRequest& request) {
   return out;
 }
 
+void check_view(const ImageRequest& request, const ColourConfig& config, const Console& console) {
+  if (!request.view) return;
+  const std::string looks = config.looks_of(*config.view(*request.view).view);
+  if (!looks.empty())
+    console.note(fmt::format("view '{}' applies a look of its own ({}), on top of this operator",
+                             *request.view, looks));
+}
+
+DisplayStage display_stage(const DisplayChoice& choice, const AppearanceParameters& scene,
+                           PixelSource& source, ImageLayout& layout, const ColourConfig& config,
+                           const RowOperator& apply, const SpatialFilters& before, const Console& console) {
+  DisplayStage out;
+  if (!choice.tone) return out;
+  const Window& data = source.pictures()[layout.light.front().index].data;
+  DisplayParameters p = choice.parameters;
+  p.adaptation = scene.adaptation;
+  p.white_luminance = scene.white_luminance;
+  p.weight = scene.weight;
+  p.strength = scene.strength.all;
+  p.exposure = layout.exposure;
+  p.sigma = display_sigma(data.width(), data.height());
+  p.xyz_from_rgb = scene.xyz_from_rgb;
+  p.xyz_from_gamut = scene.xyz_from_gamut.value_or(scene.xyz_from_rgb);
+  layout.exposure = 0;
+  DisplayRange range{};
+  if (choice.range) {
+    range = *choice.range;
+  } else {
+    const BaseLayer base(p);
+    SpatialFilters filters = before;
+    filters.push_back(&base);
+    range = range_of(measure_base(source, layout, config, apply, filters), p);
+  }
+  auto filter = std::make_unique<DisplayFilter>(p, range);
+  console.note(
+      fmt::format("{}: display: {:.3g} to {:.3g} cd/m2 of large shapes ({}) shown up to {:g} cd/m2, "
+                  "their contrast to the power {:.2g}",
+                  source.file(), range.low, range.high, choice.range ? "--display-range" : "measured", p.peak,
+                  filter->compression()));
+  out.stamps = {{"scotopic:displayLow", range.low},
+                {"scotopic:displayHigh", range.high},
+                {"scotopic:displayContrast", p.contrast},
+                {"scotopic:displayPeak", p.peak},
+                {"scotopic:displayNightRange", p.night_range},
+                {"scotopic:displayNightExponent", p.night_exponent}};
+  out.report = {
+      {"low", range.low}, {"high", range.high}, {"compression", filter->compression()}, {"sigma", p.sigma}};
+  out.filter = std::move(filter);
+  return out;
+}
+
+void refuse_idle_options(const DisplayChoice& choice, const ImageLayout& layout) {
+  if (!layout.night && !choice.of_night.empty())
+    refuse(choice.of_night, "the display stage, which this output has only with --display night");
+}
+
+ShownNight night_stage(const DisplayChoice& choice, const AppearanceParameters& scene, Precision precision,
+                       const std::string& file, ImageLayout& layout, const Console& console) {
+  ShownNight out;
+  if (!layout.night) return out;
+  NightDisplayParameters p = choice.night;
+  p.adaptation = scene.adaptation;
+  p.white_luminance = scene.white_luminance * std::exp2(layout.exposure);
+  p.xyz_from_rgb = scene.xyz_from_rgb;
+  p.xyz_from_display = layout.night->xyz_from_display;
+  const double scale = display_scale(p), stops = p.strength * visibility_stops(p.adaptation, p.rule, p.viewing);
+  // By what the format can hold, not by what a frame holds: a shot does not change.
+  if (layout.night->greatest > 0 && scale * layout.night->greatest <= 1 + 1e-6) p.shoulder = Shoulder::clip;
+  layout.exposure = std::log2(p.peak / display_unit);
+  out.batch = std::make_shared<const DisplayBatch>(p, precision);
+  console.note(fmt::format("{}: display '{}' of {:g} cd/m2: {:.2f} stops darker than by day, white is {:.3g} cd/m2 of the "
+                           "scene{}", file, layout.output_space.name, p.peak, std::abs(stops), scene.white_luminance / scale,
+                           p.shoulder == Shoulder::clip ? "" : ", brighter light bends towards it"));
+  out.stamps = {{"scotopic:display", layout.output_space.name},
+                {"scotopic:displayPeak", p.peak},
+                {"scotopic:displayStops", stops},
+                {"scotopic:displayVisibility", std::string(p.rule == VisibilityRule::hdrvdp2 ? "hdrvdp2" : "ward1997")}};
+  out.report = {{"space", layout.output_space.name}, {"peak", p.peak}, {"stops", stops}, {"scale", scale},
+                {"shoulder", p.shoulder == Shoulder::bend}};
+  return out;
+}
+
+void correct_stamps(std::vector<Attribute>& stamps, const DisplayChoice& choice, const ImageLayout& layout) {
+  const bool device = layout.output_space.for_a_device() || layout.night;
+  if (!device && !choice.tone) return;
+  std::erase_if(stamps, [](const Attribute& a) { return a.name == "whiteLuminance"; });
+  if (!device) stamps.push_back({"whiteLuminance", display_unit});
+}
+
 }  // namespace scotopic

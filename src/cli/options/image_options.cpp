@@ -1,11 +1,18 @@
 #include "cli/options/image_options.h"
 
+#include <filesystem>
+#include <sstream>
+
+#include "base/input_file.h"
 #include "cli/console.h"
 #include "cli/options/values.h"
+#include "color/primaries.h"
 
 namespace scotopic {
 
 namespace {
+
+constexpr std::int64_t primaries_file_size = 4096;
 
 void add_limit(CLI::App& verb, const char* name, std::int64_t& value, const char* text) {
   verb.add_option(name, value, text)->check(whole_number(1, std::int64_t{1} << 62))->group("Limits")->capture_default_str();
@@ -23,6 +30,7 @@ void add_input_options(CLI::App& verb, ImageOptions& o) {
     verb.add_option(name, value, text)->type_name(kind)->group("Input");
   };
   add("--config", o.config, "OpenColorIO config; else $OCIO, else the program's own", "FILE");
+  add_working_primaries(verb, o.working_primaries);
   add("--colorspace", o.colourspace,
       "Of the input; else the file's chromaticities, else the config's file rules", "NAME");
   add("--layer", o.layer, "Which layer or part holds the colour", "NAME");
@@ -48,6 +56,43 @@ void add_output_options(CLI::App& verb, ImageOptions& o) {
       "EV");
 }
 
+void add_working_primaries(CLI::App& verb, std::string& value) {
+  verb.add_option("--working-primaries", value,
+                  "Of the config's scene_linear, where its roles do not say: rec709, rec2020, p3, ap1, ap0, or a file of x y "
+                  "of red, green, blue, white")
+      ->type_name("NAME|FILE")
+      ->group("Input");
+}
+
+std::optional<Matrix3<double>> working_primaries(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  if (const auto known = gamut_xyz_matrix(text)) return known;
+  const auto refuse = [&] {
+    fail_value("--working-primaries", text,
+               "rec709, rec2020, p3, ap1, ap0, or a file of eight numbers: x y of red, green, blue and white");
+  };
+  std::error_code error;
+  if (!std::filesystem::exists(text, error)) refuse();
+  std::istringstream in(read_input_file(text, ExitCode::usage, primaries_file_size, ""));
+  std::vector<double> numbers;
+  for (std::string word; in >> word;) {
+    const std::optional<double> number = parse_number(word);
+    if (!number) refuse();
+    numbers.push_back(*number);
+  }
+  if (numbers.size() != 8 || !(numbers[7] > 0)) refuse();
+  const auto xy = [&](std::size_t i) { return Xy{numbers[2 * i], numbers[2 * i + 1]}; };
+  return xyz_d65_from_rgb({xy(0), xy(1), xy(2), xy(3)});
+}
+
+ColourConfig config_in_force(const ImageOptions& o) {
+  return ColourConfig::in_force(o.config, o.limits, working_primaries(o.working_primaries));
+}
+
+ColourConfig config_at(const std::string& file, const ImageOptions& o) {
+  return ColourConfig::from_file(file, o.limits, working_primaries(o.working_primaries));
+}
+
 ImageRequest understand(const ImageOptions& o) {
   ImageRequest out;
   out.layer = o.layer;
@@ -61,6 +106,11 @@ ImageRequest understand(const ImageOptions& o) {
                                   {"uint16", PixelType::uint16}});
   out.exposure = number_in("--exposure", o.exposure, -64, 64, "a number of EV from -64 to 64");
   return out;
+}
+
+void check_spaces(const ImageRequest& request, const ColourConfig& config) {
+  if (request.colourspace) (void)config.resolve(*request.colourspace);
+  if (request.output_colourspace) (void)config.resolve(*request.output_colourspace);
 }
 
 }  // namespace scotopic

@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "looks/config/manifest.h"
 #include "looks/verify/inspect.h"
 #include "looks/lut/ladder.h"
 #include "cli/options/image_options.h"
 #include "cli/program.h"
 #include "cli/options/values.h"
-#include "pipeline/rows/light_path.h"
+#include "pipeline/light_path.h"
 
 namespace scotopic {
 namespace {
@@ -34,7 +35,7 @@ struct OnImage {
 OnImage compare_on_image(const CheckOptions& o, const ColourConfig& config, const LookSpec& spec,
                          const OCIO_NAMESPACE::ConstCPUProcessorRcPtr& processor) {
   const std::unique_ptr<PixelSource> source = open_source(o.picture, o.image.limits);
-  const ImageLayout layout = read_layout(*source, config, understand(o.image));
+  const ImageLayout layout = plan_layout(*source, "check.exr", config, understand(o.image));
   Comparison comparison(spec.parameters.xyz_from_rgb);
   const LightPicture& light = layout.light.front();
   const Picture& picture = source->pictures()[light.index];
@@ -148,8 +149,7 @@ int run_check(const CheckOptions& o) {
   if (!o.max_error.empty())
     limit = number_in("--max-error", o.max_error, 0, 1000, "a CIEDE2000 from 0 to 1000");
   check_usage(o, is_config);
-  const ColourConfig config =
-      is_config ? ColourConfig::from_file(o.bake, o.image.limits) : ColourConfig::in_force(o.image.config, o.image.limits);
+  const ColourConfig config = is_config ? config_at(o.bake, o.image) : config_in_force(o.image);
   std::vector<Inspected> all = inspect(o, config, is_config);
   std::string where;
   if (!o.picture.empty())

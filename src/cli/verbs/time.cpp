@@ -15,14 +15,12 @@
 #include "cli/options/image_options.h"
 #include "cli/options/operator_options.h"
 #include "cli/program.h"
-#include "pipeline/apply_image.h"
-#include "pipeline/scene/scene_numbers.h"
+#include "cli/scene/scene_numbers.h"
 #include "cli/options/spectral_options.h"
 #include "cli/report/time_report.h"
 #include "cli/options/values.h"
 #include "io/atomic/output_file.h"
 #include "io/row_bands.h"
-#include "pipeline/rows/light_path.h"
 
 namespace scotopic {
 namespace {
@@ -82,9 +80,11 @@ Colours colours_of(const Colours& pixels) {
   return out;
 }
 
-Subject subject_by_formula(const OperatorChoice& choice) {
+Subject subject_by_formula(OperatorChoice choice) {
   Subject out;
-  const AppearanceParameters p = parameters_of(choice, choice.adaptation.value_or(0.1));
+  AppearanceParameters& p = choice.parameters;
+  p.adaptation = choice.adaptation.value_or(0.1);
+  p.white_luminance = choice.white_luminance.value_or(p.adaptation / 0.18);
   out.picture = night_picture(frame_width, frame_height, p);
   out.colours = stop_colours(colours_compared, p.xyz_from_rgb, p.xyz_from_rgb);
   out.conditions.picture = fmt::format("a night by formula, adaptation {:g} cd/m2", p.adaptation);
@@ -93,14 +93,14 @@ Subject subject_by_formula(const OperatorChoice& choice) {
   return out;
 }
 
-Subject subject_of_image(const TimeOptions& options, const OperatorChoice& choice, const ColourConfig& config,
+Subject subject_of_image(const TimeOptions& options, OperatorChoice choice, const ColourConfig& config,
                          const Console& console) {
   const std::unique_ptr<PixelSource> source = open_source(options.input, options.image.limits);
-  const ImageLayout layout = read_layout(*source, config, understand(options.image));
+  const ImageLayout layout = plan_layout(*source, "none.exr", config, understand(options.image));
   const Window& w = source->pictures()[layout.light.front().index].data;
   check_limit(source->file(), "bytes of memory planned", 12 * std::int64_t{w.width()} * w.height(),
               options.image.limits.memory, "--max-memory");
-  const KnownNumbers known = known_numbers(choice, *source, layout, console.notes());
+  const KnownNumbers known = known_numbers(choice, *source, layout, console);
   double log_average = 0;
   if (needs_measurement(known, source->file()))
     log_average = metered(measure_image(*source, layout, config, choice.parameters, choice.metering.region),
@@ -108,7 +108,9 @@ Subject subject_of_image(const TimeOptions& options, const OperatorChoice& choic
   const SceneNumbers numbers = settle(known, log_average, source->file());
   console.note(source->file() + ": " + describe(numbers));
   Subject out;
-  out.parameters = parameters_of(choice, numbers.adaptation, numbers.white_luminance);
+  out.parameters = choice.parameters;
+  out.parameters.adaptation = numbers.adaptation;
+  out.parameters.white_luminance = numbers.white_luminance;
   out.picture = read_picture(*source, layout, config);
   out.colours = colours_of(out.picture.pixels);
   out.conditions.picture = fmt::format("{}, adaptation {:.3g} cd/m2", options.input, numbers.adaptation);
@@ -151,7 +153,7 @@ int run_time(const TimeOptions& options) {
       static_cast<int>(number_in("--rounds", options.rounds, 1, 1000, "a count of 1 to 1000"));
   std::optional<OutputFile> plot;
   if (!options.plot.empty()) plot.emplace(options.plot);
-  const ColourConfig config = ColourConfig::in_force(options.image.config, options.image.limits);
+  const ColourConfig config = config_in_force(options.image);
   set_primaries(choice, config);
   set_threads(options.common.threads);
   // A picture to restore from, and four at work.

@@ -49,7 +49,9 @@ void add_space(OCIO::Config& config, const LookEntry& look, const LookPlace& pla
   OCIO::ColorSpaceRcPtr space = OCIO::ColorSpace::Create(OCIO::REFERENCE_SPACE_SCENE);
   space->setName(look.name.c_str());
   space->setFamily(looks_family);
-  space->setEncoding("scene-linear");
+  space->setEncoding(place.encoding.c_str());
+  for (const std::string& category : place.categories) space->addCategory(category.c_str());
+  if (place.equality_groups) space->setEqualityGroup(look.name.c_str());
   space->setBitDepth(OCIO::BIT_DEPTH_F32);
   const std::string text =
       place.process_space +
@@ -120,6 +122,17 @@ void add_noop_look(OCIO::Config& config, const std::string& name, const LookPlac
   config.addLook(look);
 }
 
+LookPlace place_beside(const OCIO::Config& config, const std::string& process_space) {
+  LookPlace place{process_space, reference_space(config)};
+  const OCIO::ConstColorSpaceRcPtr neighbour = config.getColorSpace(process_space.c_str());
+  if (*neighbour->getEncoding()) place.encoding = neighbour->getEncoding();
+  place.equality_groups = *neighbour->getEqualityGroup();
+  // Nothing is to be worked in behind a look.
+  for (int i = 0; i < neighbour->getNumCategories(); ++i)
+    if (std::string(neighbour->getCategory(i)) != "working-space") place.categories.emplace_back(neighbour->getCategory(i));
+  return place;
+}
+
 std::string reference_space(const OCIO::Config& config) {
   for (int i = 0; i < config.getNumColorSpaces(OCIO::SEARCH_REFERENCE_SPACE_SCENE, OCIO::COLORSPACE_ALL);
        ++i) {
@@ -138,8 +151,7 @@ OCIO::ConfigRcPtr make_look_config(const std::vector<LookEntry>& looks, const st
   OCIO::ConfigRcPtr config = make_base_config();
   config->setSearchPath(search_path.c_str());
   config->addEnvironmentVar(context_variable, context_default);
-  const LookPlace place = {config->getColorSpace(OCIO::ROLE_SCENE_LINEAR)->getName(),
-                           reference_space(*config)};
+  const LookPlace place = place_beside(*config, config->getColorSpace(OCIO::ROLE_SCENE_LINEAR)->getName());
   add_noop_look(*config, "Photopic", place);
   for (const LookEntry& look : looks) add_look(*config, look, place);
   add_night_views(*config, nights);

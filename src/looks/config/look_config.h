@@ -30,11 +30,17 @@ struct NightViewEntry {
   std::string gamut;  ///< rec709, p3, rec2020
 };
 
-/// Where in a config looks go.
+/// Where in a config looks go, and what the colour spaces of theirs have as their neighbours have it.
 struct LookPlace {
-  std::string process_space;    ///< the scene-linear space that looks are made for
-  std::string reference_space;  ///< a space that is the scene reference itself
+  std::string process_space;              ///< the scene-linear space that looks are made for
+  std::string reference_space;            ///< a space that is the scene reference itself
+  std::string encoding = "scene-linear";
+  std::vector<std::string> categories = {};
+  bool equality_groups = false;           ///< each space names its own: one that is shared would pass for no conversion
 };
+
+/// Around the config's `process_space`.
+LookPlace place_beside(const OCIO_NAMESPACE::Config& config, const std::string& process_space);
 
 /// Adds look and colour space. A look is forward only, unless it is a matrix: its inverse is declared to be
 /// the identity, since OCIO's own inverse of a 3D LUT would be wrong without a word. Pixels read from the

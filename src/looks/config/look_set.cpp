@@ -133,8 +133,8 @@ std::string manifest_text(const LookSet& set, const std::string& version, const 
   return text;
 }
 
-std::string look_config_text(const LookSet& set) {
-  return config_text(*make_look_config(set.entries, set.nights, lut_search_path));
+std::string look_config_text(const LookSet& set, const std::string& search_path) {
+  return config_text(*make_look_config(set.entries, set.nights, search_path));
 }
 
 }  // namespace scotopic

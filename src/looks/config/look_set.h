@@ -37,11 +37,11 @@ void add_nights(LookSet& set, const std::vector<LookSpec>& specs, const ColourCo
 /// luts/MANIFEST: what `sha256sum -c` checks; a comment before each file states its error.
 std::string manifest_text(const LookSet& set, const std::string& version, const std::string& command);
 
-/// Where configs look for LUTs: beside them, or beside their folder. (An archive of the first kind has no
-/// paths that lead out of it.)
+/// Of the shipped config, whose LUTs are beside its folder: there, or beside the config itself. (OpenColorIO archives no
+/// paths that lead out of a config's folder: a config with its LUTs in a folder of its own names that alone.)
 inline constexpr const char* lut_search_path = "luts:../luts";
 
-/// The own config with the set's looks and night views, its LUTs in folder luts or ../luts.
-std::string look_config_text(const LookSet& set);
+/// The own config with the set's looks and night views, its LUTs on `search_path`.
+std::string look_config_text(const LookSet& set, const std::string& search_path = lut_search_path);
 
 }  // namespace scotopic

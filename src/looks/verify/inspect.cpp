@@ -5,14 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iterator>
-#include <set>
-#include <sstream>
 
 #include "looks/lut/ladder.h"
 #include "looks/config/look_config.h"
 #include "looks/chain/ocio_chain.h"
-#include "looks/config/sha256.h"
 #include "base/error.h"
 #include "base/input_file.h"
 #include "color/lut_files.h"
@@ -189,30 +185,6 @@ OCIO::ConstCPUProcessorRcPtr look_processor(const ColourConfig& config, const st
   } catch (const OCIO::Exception& e) {
     throw Error(ExitCode::config, config.file(), one_line(e.what()));
   }
-}
-
-std::vector<std::string> manifest_problems(const std::string& folder) {
-  std::vector<std::string> problems;
-  std::set<std::string> listed = {"MANIFEST"};
-  std::istringstream lines(text_of(folder + "/MANIFEST"));
-  for (std::string line; std::getline(lines, line);) {
-    if (line.empty() || line[0] == '#') continue;
-    const std::size_t gap = line.find("  ");
-    if (gap != 64) {
-      problems.push_back("MANIFEST has a line that names no hash and file");
-      continue;
-    }
-    const std::string name = line.substr(gap + 2);
-    listed.insert(name);
-    if (!fs::exists(fs::path(folder) / name))
-      problems.push_back(name + " is missing");
-    else if (sha256(text_of(folder + "/" + name)) != line.substr(0, gap))
-      problems.push_back(name + " is not the file that MANIFEST lists");
-  }
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.is_regular_file() && !listed.count(entry.path().filename().string()))
-      problems.push_back(entry.path().filename().string() + " is not in MANIFEST");
-  return problems;
 }
 
 }  // namespace scotopic

@@ -35,9 +35,6 @@ OCIO_NAMESPACE::ConstCPUProcessorRcPtr look_processor(const ColourConfig& config
 /// What runs a LUT file. Error(config) if it is none.
 OCIO_NAMESPACE::ConstCPUProcessorRcPtr lut_processor(const std::string& file);
 
-/// What is wrong with the folder's MANIFEST: files missing, changed, or not listed.
-std::vector<std::string> manifest_problems(const std::string& folder);
-
 /// Whole text of a file of no more than limits.lut bytes; Error(input).
 std::string text_of(const std::string& file, const Limits& limits = {});
 

@@ -1,4 +1,4 @@
-// Configs with looks: the project's own, and a studio's that gets some.
+// The project's own config with looks.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,7 +7,8 @@
 #include <set>
 #include <sstream>
 
-#include "looks/config/config_merge.h"
+#include "looks/config/manifest.h"
+#include "looks/config/own_mark.h"
 #include "looks/verify/inspect.h"
 #include "looks/lut/ladder.h"
 #include "looks/config/look_set.h"
@@ -174,6 +175,26 @@ TEST_F(OwnConfig, matrix_looks_are_the_operator_s_chroma_with_global_weight) {
   EXPECT_LE(e.max, 0.005);
 }
 
+TEST(OwnMark, a_config_counts_as_written_by_bake_until_a_byte_of_it_changes) {
+  const std::string text = marked("a: 1\nb: 2\n", "1.0");
+  EXPECT_EQ(text.substr(text.find('\n') + 1), "a: 1\nb: 2\n");
+  EXPECT_TRUE(is_as_marked(text));
+  EXPECT_TRUE(is_as_marked(marked("", "1.0")));
+  for (const std::string& other : {std::string(), std::string("a: 1\n"), text + "\n", text.substr(1),
+                                   text.substr(0, text.size() - 1), text.substr(0, text.find('\n'))})
+    EXPECT_FALSE(is_as_marked(other)) << other;
+}
+
+TEST(Manifest, one_more_set_of_files_is_listed_beside_what_was) {
+  const std::string a(64, 'a'), b(64, 'b'), c(64, 'c');
+  const std::string older = "# Made by scotopic 1: x\n# Check with: y\n# one\n" + a + "  1.clf\n# two\n" + b + "  2.clf\n";
+  const std::string fresh = "# Made by scotopic 1: z\n# two again\n" + c + "  2.clf\n";
+  EXPECT_EQ(merged_manifest(older, fresh),
+            "# Made by scotopic 1: x\n# Check with: y\n# one\n" + a + "  1.clf\n" + fresh);
+  EXPECT_EQ(merged_manifest("", fresh), fresh);
+  EXPECT_EQ(merged_manifest(fresh, fresh), "# Made by scotopic 1: z\n" + fresh);
+}
+
 TEST_F(OwnConfig, inspection_finds_it_sound_and_finds_what_is_not) {
   const ColourConfig config = ColourConfig::from_file(folder_.path("config.ocio"));
   const std::vector<Inspected> looks = inspect_config(config, street);
@@ -191,152 +212,6 @@ TEST_F(OwnConfig, inspection_finds_it_sound_and_finds_what_is_not) {
   EXPECT_EQ(manifest_problems(folder_.path("luts")).size(), 2u);
   std::filesystem::remove(folder_.path(lut));
   EXPECT_EQ(manifest_problems(folder_.path("luts")).size(), 2u);
-}
-
-// A studio's config as people write them: comments, odd spacing, no looks.
-constexpr const char* studio = R"(ocio_profile_version: 2
-
-# Our show.
-search_path: "luts:shared/luts"
-strictparsing: true
-luma: [0.2126, 0.7152, 0.0722]
-
-roles:
-  scene_linear: lin   # everything
-  default: lin
-  data: raw
-  aces_interchange: ap0
-
-displays:
-  monitor:
-    - !<View> {name: Raw, colorspace: raw}   # first, on purpose
-    - !<View> {name: Graded, colorspace: out}
-
-  "wall 2":
-    - !<View> {name: Graded, colorspace: out}
-
-active_displays: []
-active_views: [Graded, Raw]
-
-colorspaces:
-  # The reference.
-  - !<ColorSpace>
-    name: lin
-    isdata: false
-
-  - !<ColorSpace>
-    name: ap0
-    isdata: false
-    to_reference: !<MatrixTransform> {matrix: [2.52168618674388, -1.13413098823972, -0.387555198504164, 0, -0.276479914229922, 1.37271908766826, -0.096239173438334, 0, -0.0153780649660342, -0.152975335867399, 1.16835340083343, 0, 0, 0, 0, 1]}
-
-  - !<ColorSpace>
-    name: out
-    isdata: false
-    from_reference: !<ExponentTransform> {value: [2.2, 2.2, 2.2, 1], direction: inverse}
-
-  - !<ColorSpace>
-    name: raw
-    isdata: true
-# The end.
-)";
-
-class Studio : public testing::Test {
- protected:
-  void SetUp() override { file_ = folder_.write("config.ocio", studio); }
-
-  std::vector<LookEntry> entries() const {
-    std::vector<LookEntry> out(2);
-    out[0].name = street;
-    out[0].description = "as baked";
-    out[0].file = "a.clf";
-    out[1].name = "Chroma";
-    out[1].matrix = identity3<double>();
-    out[1].view = false;
-    return out;
-  }
-
-  test::Folder folder_;
-  std::string file_;
-};
-
-TEST_F(Studio, every_line_stays_and_new_ones_come_between) {
-  const MergedConfig merged = merge_looks(ColourConfig::from_file(file_), entries());
-  EXPECT_FALSE(merged.rewritten);
-  std::istringstream before(studio), after(merged.text);
-  std::string line, next;
-  int changed = 0;
-  while (std::getline(before, line)) {
-    if (line.rfind("active_views", 0) == 0) {
-      ++changed;
-      continue;
-    }
-    bool found = false;
-    while (!found && std::getline(after, next)) found = next == line;
-    ASSERT_TRUE(found) << "lost: " << line;
-  }
-  EXPECT_EQ(changed, 1);
-  EXPECT_NE(merged.text.find(std::string("active_views: [Graded, Raw, ") + street + "]"), std::string::npos);
-}
-
-TEST_F(Studio, looks_come_as_look_space_and_view_on_every_display) {
-  const MergedConfig merged = merge_looks(ColourConfig::from_file(file_), entries());
-  folder_.write("config.ocio", merged.text);
-  const OCIO::ConstConfigRcPtr config = OCIO::Config::CreateFromFile(file_.c_str());
-  EXPECT_NO_THROW(config->validate());
-  ASSERT_EQ(config->getNumLooks(), 3);
-  EXPECT_STREQ(config->getLookNameByIndex(0), "Photopic");
-  EXPECT_TRUE(config->getColorSpace(street));
-  for (const char* display : {"monitor", "wall 2"}) {
-    EXPECT_STREQ(config->getDisplayViewColorSpaceName(display, street), "out");
-    EXPECT_STREQ(config->getDisplayViewLooks(display, street), street);
-  }
-  EXPECT_EQ(merged.lut_folder, folder_.path("luts") + "/scotopic");
-  const auto file = OCIO::DynamicPtrCast<const OCIO::FileTransform>(config->getLook(street)->getTransform());
-  EXPECT_STREQ(file->getSrc(), "scotopic/a.clf");
-}
-
-TEST_F(Studio, names_that_clash_are_refused_by_name) {
-  folder_.write("config.ocio", merge_looks(ColourConfig::from_file(file_), entries()).text);
-  try {
-    (void)merge_looks(ColourConfig::from_file(file_), entries());
-    FAIL() << "accepted a second time";
-  } catch (const Error& e) {
-    EXPECT_EQ(e.code(), ExitCode::config);
-    EXPECT_NE(std::string(e.what()).find(street), std::string::npos);
-  }
-}
-
-TEST_F(Studio, a_layout_that_lines_cannot_be_put_into_is_written_anew) {
-  std::string odd = studio;
-  const std::string from = "active_views: [Graded, Raw]";
-  odd.replace(odd.find(from), from.size(), "active_views:\n  [Graded,\n  Raw]");
-  folder_.write("config.ocio", odd);
-  const MergedConfig merged = merge_looks(ColourConfig::from_file(file_), entries());
-  EXPECT_TRUE(merged.rewritten);
-  folder_.write("config.ocio", merged.text);
-  EXPECT_EQ(OCIO::Config::CreateFromFile(file_.c_str())->getNumLooks(), 3);
-}
-
-TEST_F(Studio, the_diff_shows_what_changed_and_nothing_else) {
-  EXPECT_EQ(line_diff("a\nb\nc\n", "a\nb\nc\n"), "");
-  EXPECT_EQ(line_diff("a\nb\nc\n", "a\nb\nx\ny\nc\n"), "@@ -3 +3 @@\n+x\n+y\n");
-  EXPECT_EQ(line_diff("a\nb\nc\n", "a\nB\nc\n"), "@@ -2 +2 @@\n-b\n+B\n");
-  EXPECT_EQ(line_diff("a\n", "a\nb\n"), "@@ -2 +2 @@\n+b\n");
-}
-
-// Debian's blender-data has it; it says nothing of looks where that is not installed.
-TEST(BlenderConfig, gets_looks_without_losing_a_line) {
-  const std::string original = "/usr/share/blender/datafiles/colormanagement/config.ocio";
-  if (!std::filesystem::exists(original)) GTEST_SKIP() << "blender-data is not installed";
-  std::vector<LookEntry> entries(1);
-  entries[0].name = street;
-  entries[0].file = "a.clf";
-  const MergedConfig merged = merge_looks(ColourConfig::from_file(original), entries);
-  EXPECT_FALSE(merged.rewritten);
-  std::istringstream diff(line_diff(test::read_text(original), merged.text));
-  int removed = 0;
-  for (std::string line; std::getline(diff, line);) removed += line[0] == '-' ? 1 : 0;
-  EXPECT_EQ(removed, 1) << "only active_views may change";
 }
 
 }  // namespace

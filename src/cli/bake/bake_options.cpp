@@ -1,0 +1,118 @@
+#include "cli/bake/bake_options.h"
+
+#include <fmt/format.h>
+
+#include "cli/options/values.h"
+#include "looks/chain/read_back.h"
+#include "looks/lut/ladder.h"
+#include "looks/lut/look_chain.h"
+
+namespace scotopic {
+
+std::size_t edge_of(const BakeOptions& o) {
+  return choice<std::size_t>("--size", o.size, {{"17", 17}, {"33", 33}, {"65", 65}, {"129", 129}});
+}
+
+std::vector<double> adaptations_of(const BakeOptions& o) {
+  std::vector<double> out;
+  for (const std::string& text : o.adaptations) {
+    if (text == "ladder")
+      for (const LadderStep& step : ladder) out.push_back(step.adaptation);
+    else if (text == "auto")
+      fail_value("--adaptation", text, "luminances in cd/m2, or ladder: a LUT does not see the image");
+    else
+      out.push_back(adaptation_value(text));
+  }
+  if (out.empty()) throw Error(ExitCode::usage, "", "--adaptation is needed: luminances in cd/m2, or ladder");
+  return out;
+}
+
+OperatorChoice operator_choice(const OperatorOptions& o) {
+  const OperatorChoice out = understand(o);
+  if (out.acuity == EffectWish::yes)
+    fail_value("--effects", o.effects,
+               "shift, luminance and chroma: acuity needs a pixel's neighbours, which no LUT sees");
+  return out;
+}
+
+LookSpec spec_for(OperatorChoice choice, const BakeOptions& o, const ColourConfig& config,
+                  double adaptation) {
+  set_primaries(choice, config);
+  LookSpec spec;
+  spec.parameters = choice.parameters;
+  spec.parameters.adaptation = adaptation;
+  spec.parameters.white_luminance = choice.white_luminance.value_or(adaptation / 0.18);
+  spec.gamut = choice.gamut;
+  spec.edge = edge_of(o);
+  spec.space = o.colourspace.empty() ? config.working_space() : config.resolve(o.colourspace);
+  const std::optional<Matrix3<double>> linear = linear_space_matrix(config, spec.space);
+  spec.encoded = !linear;
+  if (linear) {
+    // The operator works in the primaries that the look is given.
+    spec.parameters.xyz_from_rgb = *linear;
+    if (spec.gamut == "working") spec.parameters.xyz_from_gamut = *linear;
+  }
+  return spec;
+}
+
+std::vector<LookSpec> specs_for_config(const BakeOptions& o, const ColourConfig& config) {
+  std::vector<LookSpec> specs;
+  OperatorChoice choice = operator_choice(o.appearance);
+  for (const double adaptation : adaptations_of(o)) specs.push_back(spec_for(choice, o, config, adaptation));
+  if (!o.beside.empty()) {
+    OperatorOptions other = o.appearance;
+    other.model = o.beside;
+    choice = operator_choice(other);
+    for (const double adaptation : adaptations_of(o)) {
+      const LookSpec spec = spec_for(choice, o, config, adaptation);
+      if (!is_identity(spec.parameters)) specs.push_back(spec);
+    }
+  }
+  for (const LookSpec& spec : specs)
+    if (spec.encoded)
+      throw Error(ExitCode::usage, "", "looks of a config work on linear light: no --colorspace");
+  return specs;
+}
+
+void check_error(const BakeOptions& o, const BakedLook& look) {
+  if (o.max_error.empty()) return;
+  const double limit = number_in("--max-error", o.max_error, 0, 1000, "a CIEDE2000 from 0 to 1000");
+  if (look.error.max <= limit) return;
+  throw Error(ExitCode::check_failed, "",
+              fmt::format("{}: largest error {:.3g} exceeds {:.3g}; a larger --size helps", look.chain.name,
+                          look.error.max, limit));
+}
+
+nlohmann::ordered_json json_of(const BakedLook& look) {
+  return {{"look", look.chain.name},        {"adaptation", look.spec.parameters.adaptation},
+          {"size", look.spec.edge},         {"mean", look.error.mean},
+          {"p99", look.error.p99},          {"max", look.error.max},
+          {"worstColour", look.error.worst}};
+}
+
+std::string said(const BakedLook& look) {
+  const bool hdr = look.spec.night && look.spec.night->peak > display_white;
+  return fmt::format("{}{}: {} to the operator: {}, at ({:.4g}, {:.4g}, {:.4g})", look.chain.name,
+                     look.spec.night ? " for a display of " + look.spec.display : "",
+                     hdr ? "delta E ITP" : "CIEDE2000", error_text(look.error), look.error.worst[0],
+                     look.error.worst[1], look.error.worst[2]);
+}
+
+std::string command_of(const BakeOptions& o) {
+  std::string text = "scotopic bake";
+  for (const std::string& a : o.adaptations) text += " --adaptation " + a;
+  if (!o.beside.empty()) text += " --beside " + o.beside;
+  text += " --model " + o.appearance.model + " --size " + o.size +
+          (o.into.empty() ? " --config DIR" : " --into CONFIG");
+  return o.luts.empty() ? text : text + " --luts LUTS";
+}
+
+void add_luts(OutputSet& files, const std::string& folder, const LookSet& set) {
+  for (std::size_t i = 0; i < set.luts.size(); ++i) {
+    const OutputFile& file = files.add(folder + "/" + set.luts[i].name, set.luts[i].text);
+    const BakedLook& look = i < set.looks.size() ? set.looks[i] : set.night_luts[i - set.looks.size()];
+    require_read_back(file.open_name(), file.path(), look.chain);
+  }
+}
+
+}  // namespace scotopic
