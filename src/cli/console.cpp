@@ -158,6 +158,10 @@ void Console::detail(const std::string& text) const {
   if (options_.verbose) line(text);
 }
 
+Notes Console::notes() const {
+  return {[this](const std::string& text) { note(text); }, [this](const std::string& text) { detail(text); }};
+}
+
 void Console::result(const nlohmann::ordered_json& object) const {
   if (options_.json) std::fputs((one_line_json(object) + "\n").c_str(), stdout);
 }

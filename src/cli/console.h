@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "pipeline/notes.h"
 
 namespace scotopic {
 
@@ -48,6 +49,8 @@ class Console {
   void detail(const std::string& text) const;
   /// With --json: the verb's result, as one line on stdout.
   void result(const nlohmann::ordered_json& object) const;
+  /// For the pipeline's; while the console is there.
+  Notes notes() const;
   bool json() const noexcept { return options_.json; }
   const CommonOptions& options() const noexcept { return options_; }
 

@@ -1,125 +1,74 @@
-// The operator on a whole file: what it is made of, how its output is laid out, band by band.
-//
-// Files of receptor signals: channels L, M, S, R (or a layer of them, "lmsr.L" ...), in luminance units: D65
-// of 1 cd/m2 has L + M = 1 and R = .4986. The float attribute "scotopic:lmsrUnit" says how many cd/m2 a value
-// of 1 stands for; without it "whiteLuminance" does.
-//
-// Alpha: light is what alpha has been multiplied into. Straight colour (PNG, some TIFF) is multiplied by its alpha before
-// the operator sees it and divided after; so the same picture is the same light whichever way it is stored. Where values
-// are encoded with a curve alpha stands after the curve: encoded straight colour, times alpha.
-//
-// A single luminance channel (Y, or a grey TIFF or PNG) becomes R, G, B: the eye in the dark does not see
-// grey as grey alone.
+// Stages on a whole file, band by band: what is measured of it, and what is written.
 #pragma once
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "stages/acuity/filter.h"
-#include "batch/batch.h"
-#include "stages/display/night_display.h"
-#include "color/colour_config.h"
-#include "pipeline/light_path.h"
-#include "io/pixel_sink.h"
-#include "io/pixel_source.h"
+#include "pipeline/evaluator.h"
+#include "pipeline/layout.h"
+#include "pipeline/rows/frame_light.h"
+#include "pipeline/rows/non_finite.h"
+#include "pipeline/rows/stages.h"
+#include "pipeline/rows/threads.h"
 #include "scene/scene_statistics.h"
+#include "stages/acuity/filter.h"
 
 namespace scotopic {
-
-/// Whether the display stage runs: on pictures that are looked at as they are (PNG, JPEG, TIFF of whole numbers, where
-/// neither a colour space nor a profile is asked for), always, or never.
-enum class NightDisplayMode { where_looked_at, always, never };
-
-/// What the user says about a file's colour and its output; what is not said is found in the file.
-struct ImageRequest {
-  std::string layer;                       ///< --layer: a channel prefix or the name of a part
-  std::optional<std::string> colourspace;  ///< of the input
-  std::optional<std::string> output_colourspace;
-  std::optional<std::string> view;                      ///< --display: [DISPLAY/]VIEW, in place of a colour space
-  NightDisplayMode night = NightDisplayMode::where_looked_at;
-  std::string night_display;                            ///< whose encoding; empty: the output file's
-  std::shared_ptr<const IccProfile> profile = nullptr;  ///< --icc, likewise
-  int jpeg_quality = 95;
-  std::optional<PixelType> type;  ///< of the output's colour channels
-  double exposure = 0;            ///< EV, applied to the result
-};
-
-/// A picture of the source that holds light, and the space its values are in.
-struct LightPicture {
-  std::size_t index = 0;
-  ColourChannels channels;
-  ColourSpace space;
-  std::string space_reason;  ///< how the space was found
-  std::vector<std::string> conflicts;  ///< tags of the file that say something else
-};
-
-/// The display that a result is encoded for.
-struct NightOutput {
-  Matrix3<double> xyz_from_display = identity3<double>();
-  Shoulder shoulder = Shoulder::bend;
-  double greatest = 0;  ///< that the input can hold, in working RGB; 0: no bound
-};
-
-/// What a file will become; no pixel is read. `notes` are for the user: what the output cannot hold.
-struct ImageLayout {
-  std::string format;
-  std::vector<LightPicture> light;  ///< at least one
-  std::vector<OutputPicture> outputs;
-  ColourSpace output_space;
-  double exposure = 0;
-  std::optional<NightOutput> night;  ///< the display stage runs
-  bool wraps = false;  ///< a lat-long panorama: filters look across its left and right side
-  std::vector<std::string> notes;
-
-  /// The light of that picture of the source; nullptr: it holds none.
-  const LightPicture* light_of(std::size_t source_index) const;
-};
-
-/// Throws Error for a layer, space or type that does not exist or does not fit the output's format.
-ImageLayout plan_layout(const PixelSource& source, const std::string& output, const ColourConfig& config,
-                        const ImageRequest& request);
-
-/// Marks the layout's colour pictures with what was applied.
-void set_stamps(ImageLayout& layout, const std::vector<Attribute>& stamps);
-
-/// The operator on rows of pixels, whichever way it is computed; what touched says is as AppearanceBatch::apply
-/// has it. Called from any number of threads at once.
-using RowOperator = std::function<void(const PixelRows& rows, std::uint8_t* touched)>;
-
-class FrameLight;
-/// Light of pictures that whole-picture stages have changed, by their index in the source.
-using FrameLights = std::map<std::size_t, FrameLight>;
 
 /// Called after each band with rows done and rows in all.
 using Progress = std::function<void(std::int64_t done, std::int64_t total)>;
 
-/// One pass over the light of all pictures (full resolution only), or over a region of each.
+/// One after the other, each looking at what the one before has made of the whole picture.
+using SpatialFilters = std::vector<const SpatialFilter*>;
+
+/// What happens to light between reading and writing, in this order. What it points to must outlive it.
+struct ImageStages {
+  NonFinite non_finite = NonFinite::keep;
+  const FrameLights* frames = nullptr;   ///< light as frame stages have left it; null: as the file has it
+  const Evaluator* evaluator = nullptr;  ///< pixel stages; null: nothing is called for
+  SpatialFilters filters;                ///< on each picture by itself
+  std::vector<const RowStage*> after;
+  /// Of the scene; for stages in `after` that ask for planes.
+  std::optional<AppearanceParameters> scene;
+  Moment moment;
+};
+
+/// What a pass over the light finds, smaller resolutions aside.
+struct MeasuredLight {
+  SceneStatistics whole;
+  SceneStatistics region;      ///< of the pixels inside it
+  NonFinitePixels non_finite;  ///< of the whole, in the file's coordinates
+};
+
+/// What to measure; at least one.
+struct MeterRequest {
+  bool whole = true;
+  std::optional<Window> region;
+};
+
+/// One pass over the light of all pictures (full resolution only), or over a region of each, or both at once.
+/// From `frames` where there are any: then the file is not read.
+MeasuredLight measure_light(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+                            const AppearanceParameters& parameters, const MeterRequest& request,
+                            const FrameLights* frames = nullptr);
+
+/// The same of all pixels, or of those of a region.
 SceneStatistics measure_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
                               const AppearanceParameters& parameters,
                               const std::optional<Window>& region = std::nullopt);
 
-/// One after the other, each looking at what the one before has made of the whole picture.
-using SpatialFilters = std::vector<const SpatialFilter*>;
-
-/// One pass over the light of all pictures (full resolution only): the values above 0 that the last of `filters`
-/// leaves in R, in image units. What is added up are integers, so that threads make no difference.
+/// One pass over the light of all pictures (full resolution only): the values above 0 that the last of the
+/// stages' filters leaves in R, in image units. What is added up are integers, so that threads make no
+/// difference.
 LuminanceHistogram measure_base(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-                                const RowOperator& apply, const SpatialFilters& filters);
+                                const ImageStages& stages);
 
-/// Writes the whole output. Without `apply` (empty) nothing is called for: where nothing else changes values either,
-/// the file's own bytes go through. `filters` are applied after it, to each picture by itself, `show` last. `frames`: light that takes
-/// the place of what the file holds. Same bytes for any number of
-/// threads. Returns how many pixels with a component that is not finite went through without `apply`.
-std::uint64_t apply_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-                          const RowOperator& apply, OutputFile& file, const Progress& progress = nullptr,
-                          const SpatialFilters& filters = {}, const RowOperator& show = {},
-                          const FrameLights* frames = nullptr);
-
-/// Threads for rows and for OpenEXR's chunks; 0: one for each processor.
-void set_threads(int count);
+/// Writes the whole output. Where no stage is called for and nothing else changes values either, the file's
+/// own bytes go through. Same bytes for any number of threads. Returns the pixels of the file that are not
+/// finite; with NonFinite::error such a file is refused, and nothing written.
+NonFinitePixels apply_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+                            const ImageStages& stages, OutputFile& file, const Progress& progress = nullptr);
 
 }  // namespace scotopic

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/names.h"
 #include "color/file/file_colour.h"
+#include "pipeline/rows/light_path.h"
 
 namespace scotopic {
 namespace {
@@ -15,7 +16,7 @@ using Kind = ColourChannels::Kind;
 void choose_space(const PixelSource& source, const ColourConfig& config, const ImageRequest& request,
                   LightPicture& light) {
   const Picture& picture = source.pictures()[light.index];
-  if (light.channels.kind == Kind::lmsr || light.channels.kind == Kind::computed) {
+  if (has_receptors(light.channels)) {
     light.space = config.space(config.working_space());
     light.space_reason = "receptor signals";
   } else if (request.colourspace) {

@@ -1,7 +1,7 @@
 // Which of a file's pictures are light, and whose colours they are.
 #pragma once
 
-#include "pipeline/apply_image.h"
+#include "pipeline/layout.h"
 
 namespace scotopic {
 
@@ -10,9 +10,10 @@ struct FoundLight {
   std::vector<std::string> notes;   ///< what is left alone
 };
 
-/// By the rules of find_colour() in each picture. Parts whose names are those of data, or whose colorInteropID says so,
-/// are none. Of several parts the views of a stereo pair are all light, else the one with the name of a beauty.
-/// `request.layer` may be a layer, a part or a view. Throws Error for none, and for several without a choice.
+/// By the rules of find_colour() in each picture. Parts whose names are those of data, or whose
+/// colorInteropID says so, are none. Of several parts the views of a stereo pair are all light, else the one
+/// with the name of a beauty. `request.layer` may be a layer, a part or a view. Throws Error for none, and
+/// for several without a choice.
 FoundLight find_light(const PixelSource& source, const ColourConfig& config, const ImageRequest& request);
 
 }  // namespace scotopic

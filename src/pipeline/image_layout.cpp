@@ -2,9 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/apply_image.h"
-#include "pipeline/find_light.h"
 #include "base/error.h"
+#include "pipeline/find_light.h"
+#include "pipeline/layout.h"
+#include "pipeline/rows/light_path.h"
 
 namespace scotopic {
 namespace {
@@ -17,9 +18,10 @@ std::string listed(const std::vector<PixelType>& types) {
   return out;
 }
 
-/// The type a colour channel gets: as asked, else its own, else the nearest that loses nothing the eye sees. What goes
-/// to a device is whole numbers, but in OpenEXR.
-PixelType output_type(const std::string& format, const std::string& output, PixelType own, const ImageRequest& request) {
+/// The type a colour channel gets: as asked, else its own, else the nearest that loses nothing the eye sees.
+/// What goes to a device is whole numbers, but in OpenEXR.
+PixelType output_type(const std::string& format, const std::string& output, PixelType own,
+                      const ImageRequest& request) {
   const std::optional<PixelType>& asked = request.type;
   const std::vector<PixelType>& possible = pixel_types_of(format);
   const auto can = [&](PixelType type) {
@@ -52,17 +54,19 @@ bool is_display_encoding(const ColourConfig& config, const ColourSpace& space) {
   return encoding && std::abs(encoding->white - 1) < 1e-3 && !config.linear_xyz(space);
 }
 
-/// The space that the display stage's result is encoded in: as asked, else the input's where that is a display's, else
-/// that of the output's name.
+/// The space that the display stage's result is encoded in: as asked, else the input's where that is a
+/// display's, else that of the output's name.
 ColourSpace night_space(const std::string& output, const ColourConfig& config, const ImageRequest& request,
                         const LightPicture& light, bool from_integer) {
   if (!request.night_display.empty()) return config.display_space(request.night_display);
-  if (from_integer && can_be_stated(light.space, false, false) && is_display_encoding(config, light.space)) return light.space;
+  if (from_integer && can_be_stated(light.space, false, false) && is_display_encoding(config, light.space))
+    return light.space;
   const ColourSpace named = config.space_of_file(output, true);
   if (is_display_encoding(config, named)) return named;
-  throw Error(ExitCode::config, config.file(),
-              "says of " + output + " that it holds '" + named.name +
-                  "', which is no display's encoding: name a display (--display night:DISPLAY), or --display none");
+  throw Error(
+      ExitCode::config, config.file(),
+      "says of " + output + " that it holds '" + named.name +
+          "', which is no display's encoding: name a display (--display night:DISPLAY), or --display none");
 }
 
 /// The display stage's part of the layout.
@@ -71,7 +75,8 @@ NightOutput night_output(const ColourConfig& config, const ColourSpace& space, c
   NightOutput out;
   const auto encoding = config.encoding(space);
   if (!encoding)
-    throw Error(ExitCode::config, config.file(), "'" + space.name + "' is no encoding of a display's R, G, B");
+    throw Error(ExitCode::config, config.file(),
+                "'" + space.name + "' is no encoding of a display's R, G, B");
   out.xyz_from_display = encoding->xyz_from_rgb;
   if (!from_integer) return out;
   if (const auto input = config.encoding(light.space)) {
@@ -90,7 +95,7 @@ ColourSpace choose_output_space(const PixelSource& source, const std::string& ou
                                 ImageLayout& layout) {
   const LightPicture& light = layout.light.front();
   const Picture& picture = source.pictures()[light.index];
-  const bool receptors = light.channels.kind == Kind::lmsr || light.channels.kind == Kind::computed;
+  const bool receptors = has_receptors(light.channels);
   const PixelType in = receptors ? PixelType::float32 : picture.channels[light.channels.index[0]].type;
   const PixelType out = output_type(layout.format, output, in, request);
   if (is_looked_at(layout.format, out, request)) {
@@ -102,7 +107,8 @@ ColourSpace choose_output_space(const PixelSource& source, const std::string& ou
   if (request.view) return config.view(*request.view);
   if (request.profile) return {request.profile->description(), std::nullopt, std::nullopt, request.profile};
   const bool exr = layout.format == "openexr";
-  const bool named = source.format() == "openexr" && !request.colourspace && !picture.colour.interop_id.empty();
+  const bool named =
+      source.format() == "openexr" && !request.colourspace && !picture.colour.interop_id.empty();
   const bool stays = !light.channels.xyz && can_be_stated(light.space, exr, named);
   if (is_integer(in) == is_integer(out) && stays) return light.space;
   return is_integer(out) ? config.space_of_file(output, true) : config.space(config.working_space());
@@ -148,15 +154,16 @@ OutputPicture light_output(const PixelSource& source, const LightPicture& light,
   out.source = light.index;
   out.picture = picture;
   const bool same_kind = source.format() == layout.format;
-  out.picture.channels = output_channels(picture, light, layout.format, output, request,
-                                         same_kind ? layout.format == "openexr" || layout.format == "tiff"
-                                                   : layout.format == "openexr");
+  out.picture.channels = output_channels(
+      picture, light, layout.format, output, request,
+      same_kind ? layout.format == "openexr" || layout.format == "tiff" : layout.format == "openexr");
   if (layout.format == "openexr" || layout.format == "jpeg") out.picture.unassociated_alpha = false;
   if (layout.format == "png") out.picture.unassociated_alpha = true;
-  const bool receptors = light.channels.kind == Kind::lmsr || light.channels.kind == Kind::computed;
+  const bool receptors = has_receptors(light.channels);
   out.new_space = receptors || !config.same(light.space, layout.output_space);
   out.tags = written_tags(layout.output_space, config);
-  out.new_tags = out.new_space || request.colourspace || !light.conflicts.empty() || source.format() != layout.format;
+  out.new_tags =
+      out.new_space || request.colourspace || !light.conflicts.empty() || source.format() != layout.format;
   out.for_a_device = layout.output_space.for_a_device();
   out.jpeg_quality = request.jpeg_quality;
   return out;
@@ -172,7 +179,8 @@ void note_losses(const PixelSource& source, ImageLayout& layout) {
   const OutputPicture& out = layout.outputs.front();
   const Picture& picture = source.pictures()[out.source];
   const PixelType colour = picture.channels.empty() ? PixelType::float32 : picture.channels.front().type;
-  if (layout.format == "tiff" && colour == PixelType::half && out.picture.channels.front().type == PixelType::float32)
+  if (layout.format == "tiff" && colour == PixelType::half &&
+      out.picture.channels.front().type == PixelType::float32)
     layout.notes.push_back("half becomes float: few programs read a TIFF of half");
   if (picture.data != picture.display) layout.notes.push_back("only the data window is written");
   const std::size_t colours = layout.light.front().channels.count();
@@ -191,7 +199,8 @@ void note_colours(const PixelSource& source, ImageLayout& layout) {
   const OutputPicture& out = layout.outputs.front();
   const bool said = layout.format == "openexr" ? out.tags.linear : out.tags.srgb || out.tags.icc;
   if (out.new_tags && !said && !out.for_a_device)
-    layout.notes.push_back("values are written in '" + layout.output_space.name + "', which nothing in the file says");
+    layout.notes.push_back("values are written in '" + layout.output_space.name +
+                           "', which nothing in the file says");
 }
 
 }  // namespace
@@ -230,6 +239,16 @@ ImageLayout plan_layout(const PixelSource& source, const std::string& output, co
   }
   note_losses(source, layout);
   note_colours(source, layout);
+  return layout;
+}
+
+ImageLayout read_layout(const PixelSource& source, const ColourConfig& config, const ImageRequest& request) {
+  ImageLayout layout;
+  FoundLight found = find_light(source, config, request);
+  layout.light = std::move(found.light);
+  layout.notes = std::move(found.notes);
+  if (source.format() != "openexr") layout.light.resize(1);
+  layout.output_space = layout.light.front().space;
   return layout;
 }
 

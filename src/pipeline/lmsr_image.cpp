@@ -1,12 +1,11 @@
 #include "pipeline/lmsr_image.h"
 
 #include <array>
-#include <atomic>
 #include <cstring>
 
 #include "base/error.h"
-#include "pipeline/non_finite.h"
 #include "io/row_bands.h"
+#include "pipeline/rows/light_path.h"
 #include "receptors/receptor_space.h"
 
 namespace scotopic {
@@ -25,11 +24,13 @@ class ReceptorRun {
  public:
   ReceptorRun(const PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
               const RodChoice& rods, const OutputPicture& out)
-      : light_(*layout.light_of(out.source)),
+      : picture_(source.pictures()[out.source]),
+        light_(*layout.light_of(out.source)),
         out_(out),
         reader_(light_.channels, config, light_.space),
         xyz_from_rgb_(config.xyz_from_working()),
-        rods_(rods) {
+        rods_(rods),
+        tally_(picture_) {
     const std::vector<Channel>& from = source.pictures()[out.source].channels;
     for (std::size_t o = receptor_names.size(); o < out.picture.channels.size(); ++o)
       for (std::size_t c = 0; c < from.size(); ++c)
@@ -48,7 +49,7 @@ class ReceptorRun {
   }
 
   /// Pixels of the source that are not.
-  std::uint64_t non_finite() const noexcept { return non_finite_; }
+  NonFinitePixels non_finite() const { return tally_.found(); }
 
  private:
   void run_row(const Band& in, int row, LightRow& light, Band& out) const {
@@ -62,11 +63,11 @@ class ReceptorRun {
       }
       if (!finite) {
         reader_.read(in, row, light);
-        non_finite_ += count_non_finite(light.pixels(true));
+        count(in, row, light);
       }
     } else {
       reader_.read(in, row, light);
-      non_finite_ += count_non_finite(light.pixels(reader_.receptors()));
+      count(in, row, light);
       if (!reader_.receptors()) see(light);
       const std::vector<float>* planes[] = {&light.cone_l, &light.cone_m, &light.cone_s, &light.rod};
       for (std::size_t s = 0; s < receptor_names.size(); ++s)
@@ -74,6 +75,10 @@ class ReceptorRun {
     }
     for (const auto& [to, from] : others_)
       copy(in.channels[from].row(row), out.channels[to].row(row), light.r);
+  }
+
+  void count(const Band& in, int row, LightRow& light) const {
+    tally_.add(non_finite_of(light.pixels(reader_.receptors())), picture_.data.x0, in.y0 + row);
   }
 
   /// Receptor signals of working RGB.
@@ -104,13 +109,14 @@ class ReceptorRun {
     }
   }
 
+  const Picture& picture_;
   const LightPicture& light_;
   const OutputPicture& out_;
   LightReader reader_;
   Matrix3<double> xyz_from_rgb_;
   RodChoice rods_;
   std::vector<std::pair<std::size_t, std::size_t>> others_;  // output channel, source channel
-  mutable std::atomic<std::uint64_t> non_finite_{0};
+  mutable NonFiniteTally tally_;
 };
 
 }  // namespace
@@ -134,12 +140,12 @@ void make_lmsr_layout(ImageLayout& layout, const std::string& output) {
   }
 }
 
-std::uint64_t write_lmsr(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-                         const RodChoice& rods, OutputFile& file, const Progress& progress) {
+NonFinitePixels write_lmsr(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+                           const RodChoice& rods, OutputFile& file, const Progress& progress) {
   const std::unique_ptr<PixelSink> sink = open_sink(layout.format, file, source, layout.outputs);
   const std::int64_t total = rows_to_write(layout);
   std::int64_t done = 0;
-  std::uint64_t non_finite = 0;
+  NonFinitePixels non_finite;
   Band in;
   Band out;
   for (std::size_t i = 0; i < layout.outputs.size(); ++i) {
@@ -156,7 +162,7 @@ std::uint64_t write_lmsr(PixelSource& source, const ImageLayout& layout, const C
       done += rows;
       if (progress) progress(done, total);
     });
-    non_finite += run.non_finite();
+    non_finite.add(run.non_finite());
   }
   sink->finish();
   source.require_unchanged();

@@ -17,9 +17,9 @@ void make_lmsr_layout(ImageLayout& layout, const std::string& output);
 
 /// Writes signals in luminance units per unit of the image: from receptors where the source has them, else
 /// cones from XYZ and rods by `rods`. Same bytes for any number of threads. Half: values beyond its range
-/// become its largest; night light below 6e-8 units is lost. Returns how many pixels of the source have a component that is
-/// not finite; so are their signals.
-std::uint64_t write_lmsr(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-                         const RodChoice& rods, OutputFile& file, const Progress& progress = nullptr);
+/// become its largest; night light below 6e-8 units is lost. Returns the pixels of the source that have a
+/// component that is not finite; so are their signals.
+NonFinitePixels write_lmsr(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+                           const RodChoice& rods, OutputFile& file, const Progress& progress = nullptr);
 
 }  // namespace scotopic

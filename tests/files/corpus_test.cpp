@@ -122,7 +122,7 @@ void treat(const std::string& in, const std::string& out) {
   OutputFile file(out);
   const std::unique_ptr<PixelSource> source = open_source(in, Limits());
   const ImageLayout layout = plan_layout(*source, out, config, request);
-  apply_image(*source, layout, config, nullptr, file);
+  apply_image(*source, layout, config, ImageStages(), file);
 }
 
 double worst_difference(const Sample& sample, const std::string& out) {

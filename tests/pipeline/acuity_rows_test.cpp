@@ -1,4 +1,4 @@
-#include "pipeline/acuity_rows.h"
+#include "pipeline/rows/acuity_rows.h"
 
 #include <gtest/gtest.h>
 

@@ -20,7 +20,7 @@
 #include "stages/acuity/filter.h"
 #include "pipeline/apply_image.h"
 #include "base/error.h"
-#include "pipeline/non_finite.h"
+#include "pipeline/rows/non_finite.h"
 #include "properties/regimes.h"
 
 namespace scotopic::test {
@@ -89,19 +89,19 @@ Image applied(const Image& image, double sigma = 0, NonFinite policy = NonFinite
     p.white_luminance = 0.02 / 0.18;
     p.xyz_from_rgb = config.xyz_from_working();
     p.xyz_from_gamut = config.xyz_from_working();
-    const AppearanceBatch batch(p);
     AcuityParameters acuity;
     acuity.sigma = sigma;
     acuity.xyz_from_rgb = p.xyz_from_rgb;
     const AcuityFilter filter(acuity);
-    if (policy == NonFinite::error) refuse_non_finite(*source, layout, config);
-    const NonFiniteWatch watch(policy);
-    apply_image(*source, layout, config,
-                watch.watched([&](const PixelRows& rows, std::uint8_t* touched) { batch.apply(rows, touched); }), file,
-                nullptr, sigma > 0 ? SpatialFilters{&filter} : SpatialFilters{});
+    const Evaluator evaluator("float", p, Precision::single);
+    ImageStages stages;
+    stages.non_finite = policy;
+    stages.evaluator = &evaluator;
+    if (sigma > 0) stages.filters.push_back(&filter);
+    const NonFinitePixels passed = apply_image(*source, layout, config, stages, file);
     if (found) {
-      *found = find_non_finite(*source, layout, config);
-      EXPECT_EQ(watch.count(), found->count);
+      *found = passed;
+      EXPECT_EQ(measure_light(*source, layout, config, p, {}).non_finite.count, passed.count);
     }
   }
   Image result = read(out);

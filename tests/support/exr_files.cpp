@@ -157,9 +157,10 @@ ImageLayout run_operator(const std::string& in, const std::string& out, double a
   parameters.xyz_from_rgb = config.xyz_from_working();
   parameters.xyz_from_gamut = config.xyz_from_working();
   set_stamps(layout, {{"scotopic:adaptation", adaptation}, {"whiteLuminance", 1.0}});
-  const AppearanceBatch batch(parameters);
-  const auto apply = [&](const PixelRows& rows, std::uint8_t* touched) { batch.apply(rows, touched); };
-  apply_image(*source, layout, config, apply, file);
+  const Evaluator evaluator("float", parameters, Precision::single);
+  ImageStages stages;
+  stages.evaluator = &evaluator;
+  apply_image(*source, layout, config, stages, file);
   return layout;
 }
 

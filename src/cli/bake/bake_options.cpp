@@ -39,9 +39,7 @@ LookSpec spec_for(OperatorChoice choice, const BakeOptions& o, const ColourConfi
                   double adaptation) {
   set_primaries(choice, config);
   LookSpec spec;
-  spec.parameters = choice.parameters;
-  spec.parameters.adaptation = adaptation;
-  spec.parameters.white_luminance = choice.white_luminance.value_or(adaptation / 0.18);
+  spec.parameters = parameters_of(choice, adaptation);
   spec.gamut = choice.gamut;
   spec.edge = edge_of(o);
   spec.space = o.colourspace.empty() ? config.working_space() : config.resolve(o.colourspace);

@@ -1,12 +1,5 @@
 #include "cli/options/acuity_options.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
-#include <numbers>
-
-#include "stages/acuity/cutoff.h"
-#include "stages/acuity/local.h"
 #include "cli/options/values.h"
 
 namespace scotopic {
@@ -19,37 +12,6 @@ const std::vector<std::pair<std::string, AcuityQuality>> qualities = {
 
 const std::vector<std::pair<std::string, std::string>> modes = {
     {"global", "global"}, {"local", "local"}, {"off", "off"}};
-
-int display_width(const PixelSource& source, const ImageLayout& layout) {
-  return source.pictures()[layout.light.front().index].display.width();
-}
-
-/// Horizontal degrees of a lens by Exif's 35 mm equivalent: the frame is 36 mm wide.
-std::optional<double> camera_field_of_view(const PixelSource& source, const ImageLayout& layout) {
-  for (const Attribute& a : source.attributes(layout.light.front().index)) {
-    if (a.name != "Exif:FocalLengthIn35mmFilm") continue;
-    const double millimetres = std::holds_alternative<int>(a.value)      ? std::get<int>(a.value)
-                               : std::holds_alternative<double>(a.value) ? std::get<double>(a.value)
-                                                                         : 0.0;
-    if (millimetres >= 1.0 && millimetres <= 10000.0)
-      return 2.0 * std::atan(18.0 / millimetres) * 180.0 / std::numbers::pi;
-  }
-  return std::nullopt;
-}
-
-/// What a picture on a desk or a wall fills of its viewer's field (our choice: a lens of 50 mm).
-constexpr double assumed_degrees = 40;
-
-bool is_lat_long(const PixelSource& source, const ImageLayout& layout) {
-  for (const Attribute& a : source.attributes(layout.light.front().index))
-    if (a.name == "envmap") {
-      const auto* text = std::get_if<std::string>(&a.value);
-      return text && *text == "latlong";
-    }
-  return false;
-}
-
-double pixels_per_degree_of_panorama(double width) { return width / 360; }
 
 }  // namespace
 
@@ -91,52 +53,6 @@ AcuityChoice understand(const AcuityOptions& o) {
   out.parameters.space = choice("--acuity-space", o.space, spaces);
   out.parameters.quality = choice("--acuity-quality", o.quality, qualities);
   return out;
-}
-
-namespace {
-
-AngularResolution resolution_across(const AcuityChoice& choice, const PixelSource& source, const ImageLayout& layout) {
-  if (choice.pixels_per_degree) return {*choice.pixels_per_degree, true, "--ppd"};
-  const double width = display_width(source, layout);
-  if (choice.field_of_view) return {pixels_per_degree(width, *choice.field_of_view), true, "--fov"};
-  if (const std::optional<double> camera = camera_field_of_view(source, layout))
-    return {pixels_per_degree(width, *camera), true,
-            fmt::format("the camera's focal length, {:.3g} degrees wide", *camera)};
-  if (is_panorama(choice, source, layout)) return {pixels_per_degree_of_panorama(width), true, "a panorama: 360 degrees wide"};
-  if (layout.night || layout.output_space.for_a_device())
-    return {pixels_per_degree(width, assumed_degrees), true,
-            fmt::format("assumed: the picture is {:g} degrees wide; --fov or --ppd tells", assumed_degrees)};
-  return {60.0, false, "not known: --fov or --ppd tells"};
-}
-
-}  // namespace
-
-bool is_panorama(const AcuityChoice& choice, const PixelSource& source, const ImageLayout& layout) {
-  return choice.panorama.value_or(is_lat_long(source, layout));
-}
-
-AngularResolution angular_resolution(const AcuityChoice& choice, const PixelSource& source,
-                                     const ImageLayout& layout) {
-  AngularResolution out = resolution_across(choice, source, layout);
-  out.pixel_aspect = source.pictures()[layout.light.front().index].pixel_aspect;
-  return out;
-}
-
-std::unique_ptr<SpatialFilter> acuity_filter(const AcuityChoice& choice, const AppearanceParameters& scene,
-                                             const AngularResolution& resolution, const Console& console) {
-  AcuityParameters p = choice.parameters;
-  p.strength *= scene.strength.all;
-  const double ppd = resolution.pixels_per_degree, cutoff = acuity_cutoff(scene.adaptation);
-  const std::string known = fmt::format("{:.3g} pixels per degree ({})", ppd, resolution.source);
-  p.sigma = acuity_sigma_pixels(scene.adaptation, ppd);
-  p.pixel_aspect = resolution.pixel_aspect;
-  p.white = scene.adaptation / 0.18 / scene.white_luminance;
-  p.xyz_from_rgb = scene.xyz_from_rgb;
-  console.note(fmt::format("acuity: {:.3g} cycles/degree are resolved, sigma {}{:.3g} pixels; {}", cutoff,
-                           choice.local ? "up to " : "", p.sigma, known));
-  if (!choice.local) return std::make_unique<AcuityFilter>(p);
-  return std::make_unique<LocalAcuityFilter>(
-      LocalAcuityParameters{p, scene.adaptation, scene.white_luminance, ppd});
 }
 
 }  // namespace scotopic

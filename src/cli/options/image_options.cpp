@@ -108,9 +108,4 @@ ImageRequest understand(const ImageOptions& o) {
   return out;
 }
 
-void check_spaces(const ImageRequest& request, const ColourConfig& config) {
-  if (request.colourspace) (void)config.resolve(*request.colourspace);
-  if (request.output_colourspace) (void)config.resolve(*request.output_colourspace);
-}
-
 }  // namespace scotopic

@@ -4,8 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "pipeline/apply_image.h"
-#include "io/pixel_source.h"
+#include "pipeline/settings.h"
 
 namespace scotopic {
 
@@ -41,8 +40,5 @@ void add_working_primaries(CLI::App& verb, std::string& value);
 
 /// Error(usage) for a value that is not understood.
 ImageRequest understand(const ImageOptions& options);
-
-/// Error(config) for a space that the config does not have: before any file is opened.
-void check_spaces(const ImageRequest& request, const ColourConfig& config);
 
 }  // namespace scotopic

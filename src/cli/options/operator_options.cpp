@@ -4,6 +4,8 @@
 #include <tuple>
 
 #include "cli/options/values.h"
+#include "cli/scene/adaptation_method.h"
+#include "pipeline/scene/parameter_names.h"
 #include "receptors/illuminant.h"
 
 namespace scotopic {
@@ -12,32 +14,10 @@ namespace {
 template <typename T>
 using Names = std::vector<std::pair<std::string, T>>;
 
-const Names<Model>& models() {
-  static const Names<Model> names = {
-      {"filament2021", Model::filament2021}, {"kirk2011", Model::kirk2011}, {"safko2019", Model::safko2019}};
-  return names;
-}
-const Names<Weight>& weights() {
-  static const Names<Weight> names = {{"local", Weight::local}, {"global", Weight::global}};
-  return names;
-}
-const Names<LuminancePolicy>& policies() {
-  static const Names<LuminancePolicy> names = {{"mesopic", LuminancePolicy::mesopic},
-                                               {"photopic", LuminancePolicy::photopic},
-                                               {"none", LuminancePolicy::none}};
-  return names;
-}
-const Names<RodEstimate>& rod_estimates() {
-  static const Names<RodEstimate> names = {{"linear", RodEstimate::linear},
-                                           {"quadratic", RodEstimate::quadratic}};
-  return names;
-}
-
-template <typename T>
-std::string name_of_value(const Names<T>& names, T value) {
-  for (const auto& [name, candidate] : names)
-    if (candidate == value) return name;
-  return "";
+/// As choice() wants them.
+template <typename T, std::size_t count>
+Names<T> known(const NamesOf<T, count>& names) {
+  return {names.begin(), names.end()};
 }
 
 double strength(const char* option, const std::string& text) {
@@ -115,7 +95,7 @@ OperatorChoice understand(const OperatorOptions& o) {
   if (!o.white_luminance.empty())
     out.white_luminance = luminance_value("--white-luminance", o.white_luminance);
   AppearanceParameters& p = out.parameters;
-  p.model = choice("--model", o.model, models());
+  p.model = choice("--model", o.model, known(model_names));
   if (!o.safko_scale.empty()) {
     if (p.model != Model::safko2019) fail_value("--safko-scale", o.safko_scale, "for --model " + o.model + ": safko2019 alone has it");
     p.safko_scale = number_in("--safko-scale", o.safko_scale, 1e-9, 1e9, "a number of kernel units per cd/m2, 1e-9 to 1e9");
@@ -125,19 +105,13 @@ OperatorChoice understand(const OperatorOptions& o) {
   p.strength.luminance = strength("--strength-luminance", o.strength_luminance);
   p.strength.chroma = strength("--strength-chroma", o.strength_chroma);
   choose_effects(o.effects, out);
-  p.weight = choice("--weight", o.weight, weights());
-  p.luminance = choice("--luminance", o.luminance, policies());
+  p.weight = choice("--weight", o.weight, known(weight_names));
+  p.luminance = choice("--luminance", o.luminance, known(luminance_names));
   out.gamut = choice("--gamut", o.gamut, gamuts());
   out.illuminant = understand_illuminant(o.illuminant);
   p.sp_ratio = out.illuminant.sp_ratio;
-  p.rods = choice("--rods", o.rods, rod_estimates());
+  p.rods = choice("--rods", o.rods, known(rod_names));
   return out;
-}
-
-void set_primaries(OperatorChoice& choice, const ColourConfig& config) {
-  AppearanceParameters& p = choice.parameters;
-  p.xyz_from_rgb = config.xyz_from_working();
-  p.xyz_from_gamut = choice.gamut == "working" ? p.xyz_from_rgb : gamut_xyz_matrix(choice.gamut);
 }
 
 std::string without_effect(const OperatorOptions& o, const AppearanceParameters& parameters) {
@@ -154,10 +128,5 @@ std::string without_effect(const OperatorOptions& o, const AppearanceParameters&
     if (*value != *its_usual) out += (out.empty() ? "" : ", ") + std::string(name);
   return out;
 }
-
-std::string model_name(Model model) { return name_of_value(models(), model); }
-std::string weight_name(Weight weight) { return name_of_value(weights(), weight); }
-std::string luminance_name(LuminancePolicy policy) { return name_of_value(policies(), policy); }
-std::string rods_name(RodEstimate rods) { return name_of_value(rod_estimates(), rods); }
 
 }  // namespace scotopic

@@ -2,13 +2,9 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <memory>
-#include <optional>
 #include <string>
 
-#include "cli/console.h"
-#include "cli/options/image_options.h"
-#include "io/spectral/spectral_source.h"
+#include "pipeline/settings.h"
 
 namespace scotopic {
 
@@ -21,13 +17,6 @@ struct BandOptions {
 
 void add_band_options(CLI::App& verb, BandOptions& options);
 
-/// A light by its name, its S/P ratio alone, or a file with its spectrum.
-struct IlluminantChoice {
-  std::string name;
-  double sp_ratio = sp_ratio_d65;
-  std::optional<Spectrum> spectrum;
-};
-
 /// Error(usage) for text that is none of the three, Error(input) for a file that holds no spectrum.
 IlluminantChoice understand_illuminant(const std::string& text);
 
@@ -35,13 +24,5 @@ IlluminantChoice understand_illuminant(const std::string& text);
 /// that is not understood.
 SpectralOptions understand(const BandOptions& options, const IlluminantChoice& illuminant,
                            const std::string& layer);
-
-/// Opens a spectral image, or a pattern of one file a wavelength, as such, and any other image as
-/// open_source() does. With -v says what was assumed.
-std::unique_ptr<PixelSource> open_input(const std::string& input, const SpectralOptions& options,
-                                        const Limits& limits, const Console& console);
-
-/// What a spectral source has to say of itself, for --json; null for any other.
-nlohmann::ordered_json spectral_report(const PixelSource& source);
 
 }  // namespace scotopic

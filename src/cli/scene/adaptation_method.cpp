@@ -15,8 +15,10 @@ constexpr const char* takes = "auto, auto:median, auto:p1 to auto:p99, or auto:X
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts(1);
   for (const char c : text) {
-    if (c == separator) parts.emplace_back();
-    else parts.back() += c;
+    if (c == separator)
+      parts.emplace_back();
+    else
+      parts.back() += c;
   }
   return parts;
 }
@@ -25,7 +27,8 @@ AdaptationMethod percentile(const std::string& text, const std::string& number) 
   const double percent = number_in("--adaptation", number, 1, 99, takes);
   AdaptationMethod method;
   method.quantile = percent / 100;
-  method.description = text == "median" ? "median of the picture" : fmt::format("percentile {} of the picture", percent);
+  method.description =
+      text == "median" ? "median of the picture" : fmt::format("percentile {} of the picture", percent);
   return method;
 }
 
@@ -53,10 +56,6 @@ std::optional<AdaptationMethod> parse_adaptation_method(const std::string& text)
   const std::vector<std::string> parts = split(method, ',');
   if (parts.size() != 4) fail_value("--adaptation", text, takes);
   return region(method, parts);
-}
-
-double metered(const SceneStatistics& s, const AdaptationMethod& method) {
-  return method.quantile ? s.photopic.quantile(*method.quantile) : s.log_mean_luminance();
 }
 
 }  // namespace scotopic

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "cli/console.h"
-#include "pipeline/apply_image.h"
-#include "io/pixel_source.h"
+#include "base/limits.h"
+#include "pipeline/run.h"
 
 namespace scotopic {
 
@@ -13,13 +13,6 @@ namespace scotopic {
 struct FramePaths {
   std::string input;
   std::string output;
-};
-
-/// One image to be made, and what goes with it.
-struct FrameTask {
-  FramePaths paths;
-  std::string recipe;  ///< stamped on the output where not empty; see recipe.h
-  Progress progress;   ///< of its rows
 };
 
 /// Options understood and the colour config read, for any number of images. A usage error is thrown when it is made.
@@ -31,7 +24,7 @@ class FrameJob {
   FrameJob& operator=(const FrameJob&) = delete;
 
   /// Writes one image, whole or not at all; returns what --json says of it. Several threads may do so at once.
-  virtual nlohmann::ordered_json run(const FrameTask& task, const Console& console) = 0;
+  virtual nlohmann::ordered_json run(const ImageJob& job, const Console& console) = 0;
   /// What an output depends on besides the options as typed and its input: the colour config, a shot's adaptation.
   virtual std::string settings() const = 0;
   virtual const Limits& limits() const = 0;

@@ -14,6 +14,7 @@
 #include "io/atomic/fingerprint.h"
 #include "io/row_bands.h"
 #include "io/spectral/spectral_source.h"
+#include "pipeline/scene/stamps.h"
 
 namespace scotopic {
 namespace {
@@ -44,7 +45,7 @@ std::string file_name(const std::string& path) { return std::filesystem::path(pa
 
 /// The last that was set: of a text that carries several, as a TIFF's description does.
 std::string last_value(const std::string& text) {
-  const std::string key = std::string(recipe_attribute) + "=";
+  const std::string key = std::string(provenance_attribute) + "=";
   const std::size_t at = text.rfind(key);
   if (at == text.npos) return "";
   const std::size_t start = at + key.size();
@@ -55,7 +56,7 @@ std::string recipe_in(const PixelSource& source, std::size_t picture) {
   for (const Attribute& a : source.attributes(picture)) {
     const auto* text = std::get_if<std::string>(&a.value);
     if (!text) continue;
-    if (a.name == recipe_attribute) return *text;
+    if (a.name == provenance_attribute) return *text;
     if (const std::string found = a.name == "ImageDescription" ? last_value(*text) : ""; !found.empty()) return found;
   }
   return "";

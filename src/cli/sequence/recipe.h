@@ -11,9 +11,6 @@
 
 namespace scotopic {
 
-/// The attribute that carries a recipe.
-inline constexpr const char* recipe_attribute = "scotopic:recipe";
-
 /// Options on the command line, "name=value" each, without those that cannot change what is written (threads, limits,
 /// what is said, which frames). An option that nobody thought of here counts: too much is computed again rather than too
 /// little.

@@ -18,40 +18,47 @@ struct Outcome {
   std::vector<std::string> notes;
 };
 
-/// Makes one frame, or finds that it is made.
-class FrameMaker {
+/// Frames as jobs, and whether one is done already.
+class FrameList {
  public:
-  FrameMaker(const std::string& verb, FrameJob& job, const FrameOptions& options, bool stamped, const CommonOptions& common)
-      : job_(job),
+  FrameList(const std::string& verb, FrameJob& work, const FrameOptions& options, bool stamped, const CommonOptions& common)
+      : work_(work),
         skip_(options.skip_existing),
         stamped_(stamped || skip_),
-        common_(stamped_ ? common_recipe(verb, job, common.typed) : "") {}
+        common_(stamped_ ? common_recipe(verb, work, common.typed) : "") {}
 
-  nlohmann::ordered_json make(const FramePaths& paths, const Console& console, const Progress& progress, bool& skipped) {
-    FrameTask task{paths, stamped_ ? recipe_of(common_, paths) : "", progress};
-    skipped = skip_ && holds_recipe(paths.output, task.recipe, job_.limits());
-    if (!skipped) return job_.run(task, console);
-    return {{"input", paths.input}, {"output", paths.output}};
+  ImageJob job(const Frame& frame) const {
+    ImageJob out;
+    out.input = frame.paths.input;
+    out.output = frame.paths.output;
+    out.moment.frame = frame.number.value_or(0);
+    if (stamped_) out.provenance = recipe_of(common_, frame.paths);
+    return out;
   }
+  /// The output is what this job would make.
+  bool is_made(const ImageJob& job) const { return skip_ && holds_recipe(job.output, job.provenance, work_.limits()); }
 
  private:
-  FrameJob& job_;
+  FrameJob& work_;
   bool skip_;
   bool stamped_;
   std::string common_;
 };
 
-int run_one(FrameMaker& maker, const Frame& frame, const Console& console) {
+nlohmann::ordered_json skipped_result(const ImageJob& job) { return {{"input", job.input}, {"output", job.output}}; }
+
+int run_one(const FrameList& list, FrameJob& work, const Frame& frame, const Console& console) {
   std::optional<ProgressLine> line;
-  const auto progress = [&](std::int64_t done, std::int64_t total) {
+  ImageJob job = list.job(frame);
+  job.progress = [&](std::int64_t done, std::int64_t total) {
     if (!line) line.emplace(console, "rows", total, ProgressLine::Log::lines);
     line->at(done);
   };
-  bool skipped = false;
-  nlohmann::ordered_json result = maker.make(frame.paths, console, progress, skipped);
+  const bool skipped = list.is_made(job);
+  nlohmann::ordered_json result = skipped ? skipped_result(job) : work.run(job, console);
   line.reset();
   if (skipped) {
-    console.note(frame.paths.output + ": is what this command made of this input; left as it is");
+    console.note(job.output + ": is what this command made of this input; left as it is");
     result["skipped"] = true;
   }
   console.result(result);
@@ -120,14 +127,16 @@ class SequenceReport {
   std::optional<Error> first_failure_;
 };
 
-int run_sequence(FrameMaker& maker, const std::vector<Frame>& frames, const FrameOptions& options, const Console& console) {
+int run_sequence(const FrameList& list, FrameJob& work, const std::vector<Frame>& frames, const FrameOptions& options, const Console& console) {
   std::vector<Outcome> outcomes(frames.size());
   SequenceReport report(frames, console);
   const auto make = [&](std::size_t i) {
     Outcome& outcome = outcomes[i];
     const Console notes(console.options(), [&](const std::string& line) { outcome.notes.push_back(line); });
     try {
-      outcome.result = maker.make(frames[i].paths, notes, nullptr, outcome.skipped);
+      const ImageJob job = list.job(frames[i]);
+      outcome.skipped = list.is_made(job);
+      outcome.result = outcome.skipped ? skipped_result(job) : work.run(job, notes);
     } catch (...) {
       outcome.failure = error_of(std::current_exception());
     }
@@ -154,8 +163,8 @@ void SaidOnce::say(const Console& console, const FramePaths& paths, const std::v
 int run_frames(const std::string& verb, FrameJob& job, const std::vector<Frame>& frames, const FrameOptions& options,
                const Console& console) {
   const bool sequence = frames.front().number.has_value();
-  FrameMaker maker(verb, job, options, sequence, console.options());
-  return sequence ? run_sequence(maker, frames, options, console) : run_one(maker, frames.front(), console);
+  const FrameList list(verb, job, options, sequence, console.options());
+  return sequence ? run_sequence(list, job, frames, options, console) : run_one(list, job, frames.front(), console);
 }
 
 }  // namespace scotopic

@@ -8,6 +8,7 @@
 
 #include "cli/sequence/in_order.h"
 #include "cli/sequence/progress_line.h"
+#include "pipeline/run.h"
 
 namespace scotopic {
 namespace {
@@ -19,13 +20,14 @@ struct FrameMeter {
   std::optional<Error> failure;
 };
 
-FrameMeter meter_frame(const SceneSettings& settings, const Frame& frame) {
+FrameMeter meter_frame(const ImageSettings& settings, const Frame& frame) {
   FrameMeter out;
   try {
-    const Console silent{CommonOptions{}, [](const std::string&) {}};
-    Scene scene = open_scene(settings, frame.paths.input, "none.exr", silent);
-    out.adaptation = meter(scene, settings, false).numbers.adaptation;
-    out.file_unit = scene.known.white_luminance ? std::nullopt : scene.known.file_unit;
+    ImageJob job;
+    job.input = frame.paths.input;
+    const SceneNumbers numbers = read_scene(job, settings, Statistics::where_needed, Notes()).numbers;
+    out.adaptation = numbers.adaptation;
+    out.file_unit = numbers.of_file ? std::optional(numbers.white_luminance) : std::nullopt;
   } catch (...) {
     out.failure = error_of(std::current_exception());
   }
@@ -45,7 +47,7 @@ void compare_units(const std::vector<FrameMeter>& meters, const std::vector<Fram
   }
 }
 
-std::vector<FrameMeter> meter_frames(const SceneSettings& settings, const std::vector<Frame>& frames,
+std::vector<FrameMeter> meter_frames(const ImageSettings& settings, const std::vector<Frame>& frames,
                                      const FrameOptions& options, const Console& console) {
   std::vector<FrameMeter> meters(frames.size());
   ProgressLine line(console, "frames metered", static_cast<std::int64_t>(frames.size()), ProgressLine::Log::lines);
@@ -102,7 +104,7 @@ nlohmann::ordered_json shot_json(const ShotLight& shot) {
   return {{"adaptation", shot.median}, {"least", shot.least}, {"greatest", shot.greatest}, {"frames", shot.frames}};
 }
 
-void settle_shot(const std::string& adaptation_from, SceneSettings& settings, const std::vector<Frame>& frames,
+void settle_shot(const std::string& adaptation_from, ImageSettings& settings, const std::vector<Frame>& frames,
                  const FrameOptions& options, const Console& console) {
   OperatorChoice& choice = settings.choice;
   check_shot(adaptation_from, choice, frames);

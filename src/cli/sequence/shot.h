@@ -32,7 +32,7 @@ nlohmann::ordered_json shot_json(const ShotLight& shot);
 /// --adaptation says ("frames"), or the one that explain found ("FILE", its --json). For `frames` the unit has to
 /// be known: Error(usage) names a frame that does not tell it. Without --adaptation-from, and where each frame would be
 /// metered by itself, warns that the result may flicker.
-void settle_shot(const std::string& adaptation_from, SceneSettings& settings, const std::vector<Frame>& frames,
+void settle_shot(const std::string& adaptation_from, ImageSettings& settings, const std::vector<Frame>& frames,
                  const FrameOptions& options, const Console& console);
 
 }  // namespace scotopic

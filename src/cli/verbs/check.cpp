@@ -10,7 +10,7 @@
 #include "cli/options/image_options.h"
 #include "cli/program.h"
 #include "cli/options/values.h"
-#include "pipeline/light_path.h"
+#include "pipeline/rows/light_path.h"
 
 namespace scotopic {
 namespace {
@@ -35,7 +35,7 @@ struct OnImage {
 OnImage compare_on_image(const CheckOptions& o, const ColourConfig& config, const LookSpec& spec,
                          const OCIO_NAMESPACE::ConstCPUProcessorRcPtr& processor) {
   const std::unique_ptr<PixelSource> source = open_source(o.picture, o.image.limits);
-  const ImageLayout layout = plan_layout(*source, "check.exr", config, understand(o.image));
+  const ImageLayout layout = read_layout(*source, config, understand(o.image));
   Comparison comparison(spec.parameters.xyz_from_rgb);
   const LightPicture& light = layout.light.front();
   const Picture& picture = source->pictures()[light.index];

@@ -8,11 +8,11 @@
 #include "cli/verbs/explain_config.h"
 #include "cli/verbs/explain_frames.h"
 #include "cli/report/explain_report.h"
-#include "cli/report/non_finite_report.h"
+#include "cli/report/image_report.h"
 #include "cli/program.h"
-#include "cli/scene/scene_plan.h"
 #include "cli/scene/scene_settings.h"
 #include "io/atomic/output_file.h"
+#include "pipeline/run.h"
 
 namespace scotopic {
 namespace {
@@ -61,10 +61,11 @@ void print(const LightNumbers& light, const SceneNumbers& numbers, const SceneSt
   fmt::print("\n{}\n{}", luminance_text(statistics, numbers.white_luminance), effects_text(plan, costs));
 }
 
-nlohmann::ordered_json result_of(const ExplainOptions& options, const LightNumbers& light,
-                                 const SceneNumbers& numbers, const SceneStatistics& statistics,
-                                 const ScenePlan& plan, const std::vector<double>& costs,
-                                 const PixelSource& source) {
+nlohmann::ordered_json result_of(const ExplainOptions& options, const LightNumbers& light, const SceneReport& scene,
+                                 const std::vector<double>& costs) {
+  const SceneNumbers& numbers = scene.numbers;
+  const SceneStatistics& statistics = *scene.statistics;
+  const ScenePlan& plan = scene.plan;
   nlohmann::ordered_json out;
   out["input"] = options.input;
   out["adaptation"] = numbers.adaptation;
@@ -79,7 +80,7 @@ nlohmann::ordered_json result_of(const ExplainOptions& options, const LightNumbe
   out["spRatio"] = light.sp_ratio;
   out["mesopicCoefficient"] = light.m;
   out["nonFinite"] = statistics.non_finite;
-  out["spectral"] = spectral_report(source);
+  out["spectral"] = spectral_json(scene.spectral);
   out["mesopic"] = {{"mean", light.mesopic}};
   out["effects"] = plan_json(plan);
   for (std::size_t i = 0; i < plan.effects.size(); ++i)
@@ -103,25 +104,19 @@ int run_explain_config(const ExplainOptions& options, const Console& console) {
   return static_cast<int>(ExitCode::done);
 }
 
-int run_explain_image(const ExplainOptions& options, const SceneSettings& settings, std::optional<OutputFile>& plot,
+int run_explain_image(const ExplainOptions& options, const ImageSettings& settings, std::optional<OutputFile>& plot,
                       const Console& console) {
-  // Nothing is written: the layout only says where the light is.
-  Scene scene = open_scene(settings, options.input, "none.exr", console);
-  const MeteredScene metered = meter(scene, settings, true);
-  const SceneStatistics& statistics = *metered.statistics;
-  const SceneNumbers& numbers = metered.numbers;
-  OperatorChoice choice = settings.choice;
-  choice.parameters.adaptation = numbers.adaptation;
-  choice.parameters.white_luminance = numbers.white_luminance;
-  const PlanRequest request =
-      plan_request(choice, settings.acuity, angular_resolution(settings.acuity, *scene.source, scene.layout));
-  const ScenePlan plan = plan_of(choice, request, &statistics);
-  const std::vector<double> costs = measure_costs(request, plan, statistics);
+  ImageJob job;
+  job.input = options.input;
+  const SceneReport scene = read_scene(job, settings, Statistics::of_all_pixels, console.notes());
+  const SceneStatistics& statistics = *scene.statistics;
+  const SceneNumbers& numbers = scene.numbers;
+  const std::vector<double> costs = measure_costs(scene.request, scene.plan, statistics);
   const LightNumbers light = light_of(statistics, numbers);
   if (plot) write_text(*plot, luminance_svg(statistics, numbers.white_luminance, numbers.adaptation));
-  if (!console.json()) print(light, numbers, statistics, plan, costs);
-  report_non_finite(statistics.non_finite, "in none of these numbers", *scene.source, scene.layout, settings.config, console);
-  console.result(result_of(options, light, numbers, statistics, plan, costs, *scene.source));
+  if (!console.json()) print(light, numbers, statistics, scene.plan, costs);
+  tell_non_finite(scene.non_finite, options.input, "in none of these numbers", console);
+  console.result(result_of(options, light, scene, costs));
   return static_cast<int>(ExitCode::done);
 }
 
@@ -141,7 +136,8 @@ int run_explain(const ExplainOptions& options) {
   if (options.input.empty()) throw Error(ExitCode::usage, "", "IN is required: an image, or an OCIO config");
   if (is_config(options.input)) return run_explain_config(options, console);
   const std::vector<Frame> frames = frames_of(options.frames, options.input, "");
-  const SceneSettings settings(options.scene, options.common.threads);
+  const ImageSettings settings = understand(options.scene);
+  set_threads(options.common.threads);
   check_places(frames, options.frames);
   std::optional<OutputFile> plot;
   if (!options.plot.empty()) plot.emplace(options.plot);

@@ -9,8 +9,8 @@
 #include "cli/sequence/in_order.h"
 #include "cli/sequence/progress_line.h"
 #include "cli/sequence/run_frames.h"
-#include "cli/scene/scene_plan.h"
 #include "cli/sequence/shot.h"
+#include "pipeline/run.h"
 
 namespace scotopic {
 namespace {
@@ -28,14 +28,6 @@ std::vector<std::string> running(const ScenePlan& plan) {
   return effects;
 }
 
-ScenePlan plan_for(const SceneSettings& settings, const SceneNumbers& numbers, const AngularResolution& resolution,
-                   const SceneStatistics* statistics) {
-  OperatorChoice choice = settings.choice;
-  choice.parameters.adaptation = numbers.adaptation;
-  choice.parameters.white_luminance = numbers.white_luminance;
-  return plan_of(choice, plan_request(choice, settings.acuity, resolution), statistics);
-}
-
 /// What is kept of a frame, or why there is nothing.
 struct Metered {
   FrameLight light;
@@ -44,15 +36,16 @@ struct Metered {
   std::vector<std::string> notes;
 };
 
-void meter_one(const SceneSettings& settings, const Frame& frame, const Console& console, Metered& out) {
-  Scene scene = open_scene(settings, frame.paths.input, "none.exr", console);
-  const MeteredScene metered = meter(scene, settings, true);
-  out.resolution = angular_resolution(settings.acuity, *scene.source, scene.layout);
-  out.light = {*frame.number, frame.paths.input, metered.numbers, metered.statistics->sp_ratio(),
-               running(plan_for(settings, metered.numbers, out.resolution, &*metered.statistics))};
+void meter_one(const ImageSettings& settings, const Frame& frame, const Console& console, Metered& out) {
+  ImageJob job;
+  job.input = frame.paths.input;
+  job.moment.frame = *frame.number;
+  const SceneReport scene = read_scene(job, settings, Statistics::of_all_pixels, console.notes());
+  out.resolution = scene.resolution;
+  out.light = {*frame.number, frame.paths.input, scene.numbers, scene.statistics->sp_ratio(), running(scene.plan)};
 }
 
-std::vector<Metered> meter_all(const SceneSettings& settings, const std::vector<Frame>& frames,
+std::vector<Metered> meter_all(const ImageSettings& settings, const std::vector<Frame>& frames,
                                const FrameOptions& options, const Console& console) {
   std::vector<Metered> all(frames.size());
   ProgressLine line(console, "frames", static_cast<std::int64_t>(frames.size()), ProgressLine::Log::lines);
@@ -129,7 +122,7 @@ std::vector<PlanChange> plan_changes(const std::vector<FrameLight>& frames) {
   return changes;
 }
 
-int explain_frames(const SceneSettings& settings, const std::vector<Frame>& frames, const FrameOptions& options,
+int explain_frames(const ImageSettings& settings, const std::vector<Frame>& frames, const FrameOptions& options,
                    std::optional<OutputFile>& plot, const Console& console) {
   std::vector<FrameLight> lights;
   std::vector<double> adaptations;

@@ -29,7 +29,7 @@ std::vector<PlanChange> plan_changes(const std::vector<FrameLight>& frames);
 
 /// Meters every frame, prints a table with bars and the changes (or --json), draws the plot if there is one; returns the
 /// exit code.
-int explain_frames(const SceneSettings& settings, const std::vector<Frame>& frames, const FrameOptions& options,
+int explain_frames(const ImageSettings& settings, const std::vector<Frame>& frames, const FrameOptions& options,
                    std::optional<OutputFile>& plot, const Console& console);
 
 /// Adaptation luminance over frames, logarithmic, with the mesopic range, the shot's median and the changes: SVG 1.1.

@@ -2,13 +2,15 @@
 #include <fmt/format.h>
 
 #include "cli/options/image_options.h"
-#include "cli/report/non_finite_report.h"
+#include "cli/report/image_report.h"
 #include "cli/program.h"
 #include "cli/sequence/recipe.h"
 #include "cli/sequence/run_frames.h"
 #include "cli/options/spectral_options.h"
 #include "cli/options/values.h"
 #include "pipeline/lmsr_image.h"
+#include "pipeline/scene/open_image.h"
+#include "pipeline/scene/stamps.h"
 
 namespace scotopic {
 namespace {
@@ -41,7 +43,7 @@ std::vector<Attribute> stamps_of(const Unit& unit, const std::string& rods, cons
     stamps.push_back({"scotopic:lmsrUnit", *unit.cdm2});
     stamps.push_back({"whiteLuminance", *unit.cdm2});
   }
-  if (!recipe.empty()) stamps.push_back({recipe_attribute, recipe});
+  if (!recipe.empty()) stamps.push_back({provenance_attribute, recipe});
   return stamps;
 }
 
@@ -75,7 +77,7 @@ class LmsrJob : public FrameJob {
   explicit LmsrJob(const LmsrOptions& options);
   std::string settings() const override { return colour_identity(config_); }
   const Limits& limits() const override { return limits_; }
-  nlohmann::ordered_json run(const FrameTask& task, const Console& console) override;
+  nlohmann::ordered_json run(const ImageJob& job, const Console& console) override;
 
  private:
   Unit unit_of(const Picture& picture, ColourChannels::Kind kind) const;
@@ -101,18 +103,13 @@ LmsrJob::LmsrJob(const LmsrOptions& o)
       white_luminance_(understand_unit(o)),
       config_(config_in_force(o.image)) {
   check_spaces(request_, config_);
-  set_threads(o.common.threads);
 }
 
 /// cd/m2 that a signal of 1 stands for.
 Unit LmsrJob::unit_of(const Picture& picture, ColourChannels::Kind kind) const {
-  using Kind = ColourChannels::Kind;
   if (white_luminance_) return {white_luminance_, "--white-luminance"};
-  if (kind == Kind::lmsr && picture.lmsr_unit) return {picture.lmsr_unit, "the file's scotopic:lmsrUnit"};
-  if (picture.white_luminance)
-    return {picture.white_luminance,
-            kind == Kind::computed ? "spectral radiance is absolute" : "the file's whiteLuminance"};
-  return {};
+  const FileUnit unit = file_unit(picture, kind);
+  return unit.luminance ? Unit{unit.luminance, unit.source} : Unit{};
 }
 
 std::string LmsrJob::rods_of(ColourChannels::Kind kind) const {
@@ -121,12 +118,11 @@ std::string LmsrJob::rods_of(ColourChannels::Kind kind) const {
   return fmt::format("{} estimate from colour, S/P {:.4g}", rods_name_, rods_.sp_ratio);
 }
 
-nlohmann::ordered_json LmsrJob::run(const FrameTask& task, const Console& console) {
-  const FramePaths& paths = task.paths;
-  OutputFile file(paths.output);
-  const std::unique_ptr<PixelSource> source = open_input(paths.input, spectral_, limits_, console);
-  ImageLayout layout = plan_layout(*source, paths.output, config_, request_);
-  make_lmsr_layout(layout, paths.output);
+nlohmann::ordered_json LmsrJob::run(const ImageJob& job, const Console& console) {
+  OutputFile file(job.output);
+  const std::unique_ptr<PixelSource> source = open_input(job.input, spectral_, limits_, console.notes());
+  ImageLayout layout = plan_layout(*source, job.output, config_, request_);
+  make_lmsr_layout(layout, job.output);
 
   const LightPicture& light = layout.light.front();
   const std::string rods = rods_of(light.channels.kind);
@@ -136,16 +132,16 @@ nlohmann::ordered_json LmsrJob::run(const FrameTask& task, const Console& consol
       unit.cdm2 ? fmt::format("{}: signal 1 is {:.4g} cd/m2 ({}); rods {}", source->file(), *unit.cdm2,
                               unit.source, rods)
                 : fmt::format("{}: cd/m2 of signal 1 {}; rods {}", source->file(), unit.source, rods));
-  set_stamps(layout, stamps_of(unit, rods, task.recipe));
-  const std::uint64_t non_finite = write_lmsr(*source, layout, config_, rods_, file, task.progress);
+  set_stamps(layout, stamps_of(unit, rods, job.provenance));
+  const NonFinitePixels non_finite = write_lmsr(*source, layout, config_, rods_, file, job.progress);
 
-  nlohmann::ordered_json result = {{"input", paths.input}, {"output", paths.output}};
+  nlohmann::ordered_json result = {{"input", job.input}, {"output", job.output}};
   result["lmsrUnit"] = unit.cdm2 ? nlohmann::ordered_json(*unit.cdm2) : nlohmann::ordered_json(nullptr);
   result["lmsrUnitSource"] = unit.source;
   result["rods"] = rods;
-  result["nonFinite"] =
-      report_non_finite(non_finite, "so are their signals", *source, layout, config_, console);
-  result["spectral"] = spectral_report(*source);
+  result["nonFinite"] = non_finite.count;
+  tell_non_finite(non_finite, source->file(), "so are their signals", console);
+  result["spectral"] = spectral_json(spectral_report_of(*source));
   return result;
 }
 
@@ -154,6 +150,7 @@ int run_lmsr(const LmsrOptions& options) {
   check_output(options.output);
   const std::vector<Frame> frames = frames_of(options.frames, options.input, options.output);
   LmsrJob job(options);
+  set_threads(options.common.threads);
   check_places(frames, options.frames);
   return run_frames("lmsr", job, frames, options.frames, console);
 }

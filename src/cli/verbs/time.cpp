@@ -15,12 +15,14 @@
 #include "cli/options/image_options.h"
 #include "cli/options/operator_options.h"
 #include "cli/program.h"
-#include "cli/scene/scene_numbers.h"
+#include "pipeline/apply_image.h"
+#include "pipeline/scene/scene_numbers.h"
 #include "cli/options/spectral_options.h"
 #include "cli/report/time_report.h"
 #include "cli/options/values.h"
 #include "io/atomic/output_file.h"
 #include "io/row_bands.h"
+#include "pipeline/rows/light_path.h"
 
 namespace scotopic {
 namespace {
@@ -80,11 +82,9 @@ Colours colours_of(const Colours& pixels) {
   return out;
 }
 
-Subject subject_by_formula(OperatorChoice choice) {
+Subject subject_by_formula(const OperatorChoice& choice) {
   Subject out;
-  AppearanceParameters& p = choice.parameters;
-  p.adaptation = choice.adaptation.value_or(0.1);
-  p.white_luminance = choice.white_luminance.value_or(p.adaptation / 0.18);
+  const AppearanceParameters p = parameters_of(choice, choice.adaptation.value_or(0.1));
   out.picture = night_picture(frame_width, frame_height, p);
   out.colours = stop_colours(colours_compared, p.xyz_from_rgb, p.xyz_from_rgb);
   out.conditions.picture = fmt::format("a night by formula, adaptation {:g} cd/m2", p.adaptation);
@@ -93,14 +93,14 @@ Subject subject_by_formula(OperatorChoice choice) {
   return out;
 }
 
-Subject subject_of_image(const TimeOptions& options, OperatorChoice choice, const ColourConfig& config,
+Subject subject_of_image(const TimeOptions& options, const OperatorChoice& choice, const ColourConfig& config,
                          const Console& console) {
   const std::unique_ptr<PixelSource> source = open_source(options.input, options.image.limits);
-  const ImageLayout layout = plan_layout(*source, "none.exr", config, understand(options.image));
+  const ImageLayout layout = read_layout(*source, config, understand(options.image));
   const Window& w = source->pictures()[layout.light.front().index].data;
   check_limit(source->file(), "bytes of memory planned", 12 * std::int64_t{w.width()} * w.height(),
               options.image.limits.memory, "--max-memory");
-  const KnownNumbers known = known_numbers(choice, *source, layout, console);
+  const KnownNumbers known = known_numbers(choice, *source, layout, console.notes());
   double log_average = 0;
   if (needs_measurement(known, source->file()))
     log_average = metered(measure_image(*source, layout, config, choice.parameters, choice.metering.region),
@@ -108,9 +108,7 @@ Subject subject_of_image(const TimeOptions& options, OperatorChoice choice, cons
   const SceneNumbers numbers = settle(known, log_average, source->file());
   console.note(source->file() + ": " + describe(numbers));
   Subject out;
-  out.parameters = choice.parameters;
-  out.parameters.adaptation = numbers.adaptation;
-  out.parameters.white_luminance = numbers.white_luminance;
+  out.parameters = parameters_of(choice, numbers.adaptation, numbers.white_luminance);
   out.picture = read_picture(*source, layout, config);
   out.colours = colours_of(out.picture.pixels);
   out.conditions.picture = fmt::format("{}, adaptation {:.3g} cd/m2", options.input, numbers.adaptation);

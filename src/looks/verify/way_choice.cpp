@@ -1,7 +1,11 @@
 #include "looks/verify/way_choice.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <tuple>
+
+#include "base/error.h"
 #include "looks/verify/timing.h"
 
 namespace scotopic {
@@ -60,6 +64,36 @@ bool meets(const MeasuredWay& way, const WayDemand& demand) {
          (!demand.budget || way.nanoseconds <= *demand.budget);
 }
 
+std::string demand_text(const WayDemand& d) {
+  std::string out;
+  if (d.max_error) out = fmt::format("an error of at most {:g} dE00", *d.max_error);
+  if (d.budget) out += fmt::format("{}at most {:g} ns per pixel", out.empty() ? "" : " and ", *d.budget);
+  return out;
+}
+
+std::string measured_text(const std::vector<MeasuredWay>& measured) {
+  std::string out;
+  for (const MeasuredWay& way : measured)
+    out += fmt::format("{}{} {:.2g} dE00 {:.3g} ns", out.empty() ? "" : ", ", way.name, way.max_error,
+                       way.nanoseconds);
+  return out;
+}
+
+/// What a scene or its plan may change of the parameters; the rest is the command's.
+auto of_scene(const AppearanceParameters& p) {
+  return std::make_tuple(p.adaptation, p.white_luminance, p.luminance, p.strength.all, p.strength.shift,
+                         p.strength.luminance, p.strength.chroma);
+}
+
+/// The evaluator of a way; a LUT's is prepared already.
+std::shared_ptr<Evaluator> evaluator_of(const Way& way, const AppearanceParameters& parameters,
+                                        RowOperator lut) {
+  const std::string name(way.name);
+  if (way.edge > 0) return std::make_shared<Evaluator>(name, std::move(lut));
+  return std::make_shared<Evaluator>(name, parameters,
+                                     name == "double" ? Precision::dual : Precision::single);
+}
+
 }  // namespace
 
 std::optional<std::size_t> pick_way(std::span<const MeasuredWay> measured, const WayDemand& demand) {
@@ -86,6 +120,36 @@ WayChoice choose_way(const AppearanceParameters& parameters, const WayDemand& de
   }
   out.picked = pick_way(out.measured, demand);
   if (out.picked) out.way = contest.take(*out.picked);
+  return out;
+}
+
+std::shared_ptr<const Evaluator> ChosenEvaluators::evaluator(const AppearanceParameters& parameters,
+                                                             bool receptors, const Notes& notes) {
+  const std::lock_guard guard(lock_);
+  if (kept_ && receptors == receptors_ && of_scene(parameters) == of_scene(parameters_)) return kept_;
+  kept_ = make(parameters, receptors, notes);
+  parameters_ = parameters;
+  receptors_ = receptors;
+  return kept_;
+}
+
+std::shared_ptr<const Evaluator> ChosenEvaluators::make(const AppearanceParameters& parameters,
+                                                        bool receptors, const Notes& notes) {
+  if (way_) {
+    if (way_->edge > 0 && receptors)
+      throw Error(ExitCode::usage, "", "no LUT holds signals of receptors: --precision float or double");
+    return evaluator_of(*way_, parameters,
+                        way_->edge > 0 ? prepare_way(parameters, *way_).apply : RowOperator());
+  }
+  WayChoice chosen = choose_way(parameters, demand_, !receptors);
+  if (!chosen.picked)
+    throw Error(ExitCode::limit, "",
+                fmt::format("no way has {}: {}", demand_text(demand_), measured_text(chosen.measured)));
+  way_ = &way_named(chosen.measured[*chosen.picked].name);
+  notes.note(fmt::format("computed in {}, for {} (measured: {})", way_->name, demand_text(demand_),
+                         measured_text(chosen.measured)));
+  const std::shared_ptr<Evaluator> out = evaluator_of(*way_, parameters, std::move(chosen.way.apply));
+  out->measured = std::move(chosen.measured);
   return out;
 }
 

@@ -1,14 +1,16 @@
 // Which way to compute: the cheapest that is accurate enough, or the most accurate that is cheap enough.
 #pragma once
 
-#include <functional>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
-#include "stages/shared/parameters.h"
 #include "looks/verify/ways.h"
+#include "pipeline/evaluator.h"
+#include "stages/shared/parameters.h"
 
 namespace scotopic {
 
@@ -19,11 +21,7 @@ struct WayDemand {
 };
 
 /// A way, its worst error (CIEDE2000) and its cost per pixel.
-struct MeasuredWay {
-  std::string_view name;
-  double max_error = 0;
-  double nanoseconds = 0;
-};
+using MeasuredWay = EvaluatorMeasure;
 
 /// The place of the way to take: among those that meet the demand the cheapest, or, where there is only a
 /// budget, the most accurate. nullopt: none does.
@@ -40,5 +38,32 @@ struct WayChoice {
 /// smallest, are looked at only while they are cheaper than computing in float, which is closer than any LUT.
 /// `luts`: whether LUTs will do at all.
 WayChoice choose_way(const AppearanceParameters& parameters, const WayDemand& demand, bool luts);
+
+/// Evaluators by name, or such as meet a demand. One is prepared once for frames of the same scene
+/// parameters, so that a LUT is baked once; what a demand picks for the first frame is used for all, so that
+/// timings cannot make frames differ.
+class ChosenEvaluators : public EvaluatorSource {
+ public:
+  /// What is named.
+  explicit ChosenEvaluators(const Way& named) : way_(&named) {}
+  /// What is picked, for the first scene, by pick_way().
+  explicit ChosenEvaluators(const WayDemand& demand) : demand_(demand) {}
+
+  /// Says what was picked. Error(usage) for a LUT where rows have signals of `receptors`; Error(limit) if no
+  /// way meets the demand.
+  std::shared_ptr<const Evaluator> evaluator(const AppearanceParameters& parameters, bool receptors,
+                                             const Notes& notes) override;
+
+ private:
+  std::shared_ptr<const Evaluator> make(const AppearanceParameters& parameters, bool receptors,
+                                        const Notes& notes);
+
+  const Way* way_ = nullptr;
+  WayDemand demand_;
+  std::mutex lock_;
+  std::shared_ptr<const Evaluator> kept_;
+  AppearanceParameters parameters_;
+  bool receptors_ = false;
+};
 
 }  // namespace scotopic

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string>
 
-#include "batch/batch.h"
 #include "stages/shared/colour_difference.h"
 #include "pipeline/apply_image.h"
 #include "pipeline/lmsr_image.h"
@@ -66,9 +65,10 @@ TEST(SpectralApply, light_adapted_result_is_the_cie_1931_image) {
       parameters.adaptation = 5.0;
       parameters.white_luminance = 1.0;
       parameters.xyz_from_rgb = config.xyz_from_working();
-      const AppearanceBatch batch(parameters);
-      const auto apply = [&](const PixelRows& rows, std::uint8_t* touched) { batch.apply(rows, touched); };
-      apply_image(*source, layout, config, apply, file);
+      const Evaluator evaluator("float", parameters, Precision::single);
+      ImageStages stages;
+      stages.evaluator = &evaluator;
+      apply_image(*source, layout, config, stages, file);
     }
     const Band seen = read_pixels(output);
     for (int i = 0; i < patches; ++i) {

@@ -1,0 +1,78 @@
+// One picture's way through all stages: bands of the file in, bands of the output out.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "pipeline/apply_image.h"
+#include "pipeline/rows/acuity_rows.h"
+#include "pipeline/rows/kept_planes.h"
+#include "pipeline/rows/light_path.h"
+
+namespace scotopic {
+
+/// What it is given must outlive it. Rows are worked on by all threads.
+class PictureRun {
+ public:
+  /// `out` is of `layout`, and no copy.
+  PictureRun(const PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+             const ImageStages& stages, const OutputPicture& out);
+
+  /// Fills `out` from `in`, where there are no filters; `interleaved` as the sink wants it.
+  void run(const Band& in, Band& out, bool interleaved) const;
+
+  /// The same with filters at the end: a band may come out later than it went in, or several at once.
+  void run(Band&& in, std::deque<AcuityRows>& filters, Band& out, bool interleaved,
+           const std::function<void(const Band&)>& write) const;
+
+  /// What all stages up to the filters make of a band; `use(rows)` for each that comes out.
+  void see_band(Band&& in, std::deque<AcuityRows>& filters,
+                const std::function<void(const AcuityRows&)>& use) const;
+
+  /// Room for the filters' rows, in their order.
+  std::deque<AcuityRows> filter_rows(bool descending, bool keep_alpha) const;
+
+  /// Pixels of the file that have passed and are not finite.
+  NonFinitePixels non_finite() const { return tally_.found(); }
+
+ private:
+  /// Room for one row at work.
+  struct Room {
+    Room(std::size_t width, bool keeps) : light(width), seen(keeps ? width : 0) {}
+    LightRow light;
+    LightRow seen;  ///< as the operator saw it; only for stages that ask for planes
+    std::vector<float> rod, local;
+  };
+
+  void each_row(const Band& band, const std::function<void(int row, Room& room)>& work) const;
+  void run_piece(const Band& in, int x, int row, Room& room, const Band& out) const;
+  void allocate(const Band& in, Band& out, bool interleaved) const;
+  bool copies() const;
+  void copy_row(const Band& in, int x, int row, LightRow& room, const Band& out) const;
+  std::vector<std::size_t> read_light(const Band& in, int x, int row, LightRow& light,
+                                      NonFiniteTally* tally) const;
+  void see_row(const Band& in, int x, int row, LightRow& light) const;
+  void show_row(const Band& in, int x, int row, Room& room) const;
+  void write_row(const Band& in, int x, int row, Room& room, const Band& out) const;
+  NativeRow colour_row(const Band& in, int row, std::size_t c) const;
+  void copy_others(const Band& in, int row, LightRow& room, const Band& out) const;
+  void set_alpha(bool linear);
+  void find_others();
+
+  const LightPicture& light_;
+  const Picture& source_picture_;
+  const OutputPicture& out_;
+  const ImageStages& stages_;
+  bool wraps_;
+  const LightPlanes* frame_ = nullptr;
+  LightReader reader_;
+  LightWriter writer_;
+  std::optional<PlaneKeeper> keeper_;
+  std::vector<std::size_t> others_;  // channel of the source for each output channel after R, G, B
+  mutable NonFiniteTally tally_;
+};
+
+}  // namespace scotopic

@@ -1,0 +1,109 @@
+// Stages that the fused loop of pixel stages does not hold: of whole pictures before it, of single pixels
+// after those that look around. Both are told the scene.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "batch/batch.h"
+#include "io/picture.h"
+#include "scene/plan.h"
+#include "stages/shared/parallel_for.h"
+#include "stages/shared/parameters.h"
+#include "stages/shared/row_context.h"
+
+namespace scotopic {
+
+/// Pixels per degree, and how they are known.
+struct AngularResolution {
+  double pixels_per_degree = 60.0;
+  bool known = false;
+  std::string source;
+  double pixel_aspect = 1;  ///< width over height of a pixel; the above is across
+};
+
+/// What a stage may know of the scene. Of a frame stage: adaptation and unit as given, or as metered on the
+/// picture before it; of a stage after the others, as they were used.
+struct StageScene {
+  AppearanceParameters parameters;
+  AngularResolution resolution;
+  bool wraps = false;  ///< a panorama: its last column lies beside its first
+};
+
+/// A whole picture's light: linear working RGB, and receptor signals where the file brings its own.
+struct FramePlanes {
+  std::array<float*, 3> rgb{};
+  std::array<float*, 4> receptors{};  ///< L, M, S, rods; null where they follow from RGB
+  int width = 0;
+  int height = 0;
+  std::ptrdiff_t stride = 0;  ///< floats from row to row
+  RowContext corner;          ///< of the first pixel
+
+  /// Planes that are there: 3 or 7.
+  int count() const noexcept { return receptors[0] ? 7 : 3; }
+};
+
+/// What a picture is, as far as its header tells: enough to plan memory by.
+struct FrameSize {
+  int width = 0;
+  int height = 0;
+  int planes = 3;
+  int threads = 1;
+};
+
+/// Whether a picture was changed, and why or why not.
+struct FrameOutcome {
+  bool ran = false;
+  std::string reason;  ///< in words, with the number
+  double number = 0;   ///< what decided; added up over the pictures of an image
+};
+
+/// A stage that needs the whole picture, as light that scatters in the eye does: before the pixel stages, in
+/// place. Immutable: any number of pictures at once. Smaller resolutions of a picture do not go through it.
+class FrameStage {
+ public:
+  virtual ~FrameStage() = default;
+  /// As options, plans and stamps have it.
+  virtual std::string_view name() const noexcept = 0;
+  /// Whether it was asked for, with the reason if not; decided without a pixel, when adaptation and unit are
+  /// not known yet. Error(usage) where it cannot do what was asked for by name.
+  virtual EffectDecision asked(const StageScene& scene) const = 0;
+  /// What run() allocates at most, the planes not counted.
+  virtual std::int64_t bytes(const FrameSize& size, const StageScene& scene) const = 0;
+  /// Changes `light`, if the scene calls for it. The result depends on no number of threads.
+  virtual FrameOutcome run(const FramePlanes& light, const StageScene& scene,
+                           const ParallelFor& parallel_for) const = 0;
+  /// What an output that it has changed says of it.
+  virtual std::vector<Attribute> stamps(const StageScene& scene) const = 0;
+};
+
+using FrameStages = std::vector<std::shared_ptr<const FrameStage>>;
+
+/// What the pixel stages saw of a row, kept for a stage after them.
+struct KeptPlanes {
+  const float* rod = nullptr;              ///< rods' signal, luminance units per unit of the image
+  const float* local_luminance = nullptr;  ///< Lloc, cd/m2
+};
+
+/// A stage of single pixels. Immutable: any number of threads. Results must not depend on how pixels are
+/// grouped into rows.
+class RowStage {
+ public:
+  virtual ~RowStage() = default;
+  /// Whether it asks for KeptPlanes; they are null otherwise.
+  virtual bool asks_for_planes() const noexcept { return false; }
+  /// In place. Sets touched[i] to 1 where pixel i changes and leaves it elsewhere.
+  virtual void apply(const PixelRows& rows, const RowContext& at, const KeptPlanes& kept,
+                     std::uint8_t* touched) const = 0;
+};
+
+/// Makes a stage for an image whose scene is known; nullptr where it is not called for.
+using RowStageMaker = std::function<std::unique_ptr<const RowStage>(const StageScene& scene)>;
+
+}  // namespace scotopic

@@ -1,0 +1,116 @@
+// What is asked for, as values: made by whoever parses options, keywords or parameters; the same for all
+// images.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/limits.h"
+#include "color/colour_config.h"
+#include "io/spectral/spectral_source.h"
+#include "pipeline/layout.h"
+#include "pipeline/rows/non_finite.h"
+#include "pipeline/rows/stages.h"
+#include "stages/acuity/filter.h"
+#include "stages/display/local/display.h"
+#include "stages/display/night_display.h"
+#include "stages/glare/filter.h"
+#include "stages/shared/parameters.h"
+
+namespace scotopic {
+
+/// What of a picture the eye is taken to be adapted to, where that is metered.
+struct AdaptationMethod {
+  std::optional<double> quantile;  ///< of luminance, 0 to 1; absent: log-average
+  std::optional<Window> region;    ///< only these pixels are metered, in coordinates of the display window
+  std::string description = "log-average of the picture";
+};
+
+/// A light by its name, its S/P ratio alone, or a file with its spectrum.
+struct IlluminantChoice {
+  std::string name;
+  double sp_ratio = sp_ratio_d65;
+  std::optional<Spectrum> spectrum;
+};
+
+/// Whether --effects asks for a stage that looks at neighbours: in a list by name; all and auto only where
+/// pixels per degree are known.
+enum class EffectWish { no, if_known, yes };
+
+/// The pixel stages. Adaptation, white luminance and primaries in `parameters` are those of a scene; see
+/// parameters_of().
+struct OperatorChoice {
+  AppearanceParameters parameters;
+  std::optional<double> adaptation;  ///< cd/m2; nullopt: auto, by `metering`
+  std::string adaptation_source = "--adaptation";
+  AdaptationMethod metering;
+  std::optional<double> white_luminance;  ///< cd/m2; nullopt: the file's, or from the adaptation
+  bool plan_effects = false;              ///< --effects auto
+  EffectWish acuity = EffectWish::no;
+  EffectWish glare = EffectWish::no;
+  std::string gamut = "working";
+  IlluminantChoice illuminant;
+};
+
+/// Detail, and how large a pixel is.
+struct AcuityChoice {
+  std::optional<bool> panorama;  ///< nullopt: as the file says
+  bool asked = false;
+  bool local = false;           ///< sigma follows each pixel's own surroundings
+  AcuityParameters parameters;  ///< sigma, white and primaries are not set yet
+  std::optional<double> pixels_per_degree;
+  std::optional<double> field_of_view;  ///< degrees, of the width of the display window
+};
+
+/// What a display is sent. The scene's numbers in both sets of parameters are not set yet.
+struct DisplayChoice {
+  bool tone = false;                  ///< the local tone map runs
+  NightDisplayParameters night;       ///< of the display stage
+  DisplayParameters parameters;       ///< of the tone map
+  std::optional<DisplayRange> range;  ///< nullopt: measured
+  std::string of_night;               ///< an option given that only the display stage knows; empty: none
+};
+
+/// Light that the eye scatters.
+struct GlareChoice {
+  GlareRule rule = GlareRule::above;
+  std::optional<double> threshold;  ///< image units; nullopt: what the display cannot show
+  GlareEye eye;
+  double strength = 1;
+  bool off = false;    ///< --glare none
+  bool named = false;  ///< --glare was given
+};
+
+/// Everything.
+struct ImageSettings {
+  explicit ImageSettings(ColourConfig in_force) : config(std::move(in_force)) {}
+
+  OperatorChoice choice;
+  AcuityChoice acuity;
+  DisplayChoice display;
+  ImageRequest request;
+  NonFinite non_finite = NonFinite::keep;
+  Limits limits;
+  SpectralOptions spectral;
+  ColourConfig config;
+  FrameStages frame_stages;               ///< before the pixel stages, in this order
+  std::vector<RowStageMaker> row_stages;  ///< after those that look around, before the display
+};
+
+/// Sets the primaries: those of the config's working space, and of the gamut chosen.
+void set_primaries(OperatorChoice& choice, const ColourConfig& config);
+
+/// The operator's parameters in a scene: adaptation and what image value 1 stands for, both in cd/m2.
+AppearanceParameters parameters_of(const OperatorChoice& choice, double adaptation, double white_luminance);
+/// Without a picture: the unit is as asked for, else such that middle grey is what the eye is adapted to.
+AppearanceParameters parameters_of(const OperatorChoice& choice, double adaptation);
+
+/// Photographic middle grey: the reflectance that a scene's log-average is taken to be.
+inline constexpr double middle_grey = 0.18;
+
+/// Error(config) for a space that the config does not have: before any file is opened.
+void check_spaces(const ImageRequest& request, const ColourConfig& config);
+
+}  // namespace scotopic

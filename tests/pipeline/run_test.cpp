@@ -1,0 +1,284 @@
+// The one call: how often a file is decoded, what stages are told, and that whole pictures go through stages
+// of their own.
+#include "pipeline/run.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <mutex>
+
+#include "base/error.h"
+#include "pipeline/rows/threads.h"
+#include "support/exr_files.h"
+
+namespace scotopic {
+namespace {
+
+using test::read_bits;
+using test::temporary;
+using test::TestPart;
+using test::write_exr;
+
+const std::vector<Channel> rgb_float = {{"B", PixelType::float32},
+                                        {"G", PixelType::float32},
+                                        {"R", PixelType::float32},
+                                        {"Z", PixelType::float32}};
+
+/// A picture whose data window begins elsewhere than its display window.
+TestPart picture(int width = 700, int height = 83) {
+  TestPart part;
+  part.channels = rgb_float;
+  part.finite = true;
+  part.data = {-5, -7, -5 + width, -7 + height};
+  part.display = {0, 0, 640, 70};
+  return part;
+}
+
+ImageSettings settings(double adaptation) {
+  ImageSettings out(ColourConfig::own());
+  if (adaptation > 0) out.choice.adaptation = adaptation;
+  out.choice.white_luminance = 1;
+  set_primaries(out.choice, out.config);
+  return out;
+}
+
+ImageReport run(const std::string& in, const std::string& out, const ImageSettings& s, ImageJob job = {},
+                const Notes& notes = {}) {
+  job.input = in;
+  job.output = out;
+  ExactEvaluators evaluators;
+  return run_image(job, s, evaluators, notes);
+}
+
+float value(std::uint32_t bits) { return std::bit_cast<float>(bits); }
+
+/// Values of a channel, row by row.
+std::vector<float> values(const std::string& file, const std::string& channel) {
+  std::vector<float> out;
+  for (const std::uint32_t bits : read_bits(file, 0, 0, 0, channel)) out.push_back(value(bits));
+  return out;
+}
+
+/// Writes what it is told into the pixels: where each lies, when, and what the operator saw there.
+class Witness : public RowStage {
+ public:
+  explicit Witness(bool asks) : asks_(asks) {}
+  bool asks_for_planes() const noexcept override { return asks_; }
+  void apply(const PixelRows& rows, const RowContext& at, const KeptPlanes& kept,
+             std::uint8_t* touched) const override {
+    EXPECT_EQ(asks_, kept.rod != nullptr);
+    for (std::size_t i = 0; i < rows.count; ++i) {
+      rows.r[i] = asks_ ? kept.local_luminance[i] : static_cast<float>(at.x + static_cast<int>(i));
+      rows.g[i] = asks_ ? kept.rod[i] : static_cast<float>(at.y);
+      rows.b[i] =
+          static_cast<float>(1000 * at.moment.frame + at.display_x1) + static_cast<float>(at.moment.seed);
+      touched[i] = 1;
+    }
+  }
+
+ private:
+  bool asks_;
+};
+
+RowStageMaker witness(bool asks) {
+  return [asks](const StageScene&) { return std::make_unique<const Witness>(asks); };
+}
+
+TEST(Run, a_row_stage_is_told_where_and_when_its_pixels_are) {
+  const std::string in = temporary("where.exr"), out = temporary("where-out.exr");
+  const TestPart part = picture();
+  write_exr(in, {part});
+  for (const bool acuity : {false, true}) {
+    ImageSettings s = settings(0.01);
+    s.row_stages = {witness(false)};
+    s.acuity.asked = acuity;
+    s.acuity.pixels_per_degree = 60;
+    ImageJob job;
+    job.moment = {7, 0.25, 3};
+    run(in, out, s, job);
+    const std::vector<float> r = values(out, "R"), g = values(out, "G"), b = values(out, "B");
+    ASSERT_EQ(r.size(), 700u * 83u);
+    for (std::size_t i = 0; i < r.size(); ++i) {
+      ASSERT_EQ(r[i], static_cast<float>(static_cast<int>(i % 700) - 5)) << i;
+      ASSERT_EQ(g[i], static_cast<float>(static_cast<int>(i / 700) - 7)) << i;
+      ASSERT_EQ(b[i], 7643.0f) << i;
+    }
+  }
+}
+
+TEST(Run, a_row_stage_gets_the_planes_it_asks_for_as_the_operator_saw_them) {
+  const std::string in = temporary("planes.exr"), out = temporary("planes-out.exr");
+  write_exr(in, {picture()});
+  ImageSettings s = settings(0.02);
+  s.choice.white_luminance = 3;
+  s.row_stages = {witness(true)};
+  const ImageReport report = run(in, out, s);
+  const std::vector<float> r = values(in, "R"), g = values(in, "G"), b = values(in, "B");
+  const std::vector<float> local = values(out, "R"), rod = values(out, "G");
+  const Matrix3<double>& xyz_from_rgb = s.choice.parameters.xyz_from_rgb;
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    const Vec3<double> xyz = xyz_from_rgb * Vec3<double>{r[i], g[i], b[i]};
+    ASSERT_EQ(local[i], static_cast<float>(0.02 + std::max(0.0, 3 * xyz[1]))) << i;
+    ASSERT_EQ(std::isfinite(rod[i]), true) << i;
+  }
+  EXPECT_EQ(report.evaluator->name(), "float");
+  EXPECT_NE(rod.front(), r.front());
+}
+
+/// What the stages of these tests have in common.
+class TestStage : public FrameStage {
+ public:
+  explicit TestStage(std::string_view name) : name_(name) {}
+  std::string_view name() const noexcept override { return name_; }
+  EffectDecision asked(const StageScene&) const override {
+    EffectDecision out;
+    out.effect = name_;
+    out.asked = true;
+    return out;
+  }
+  std::int64_t bytes(const FrameSize&, const StageScene&) const override { return 0; }
+  std::vector<Attribute> stamps(const StageScene&) const override {
+    return {{"test:" + std::string(name_), 1.0}};
+  }
+
+ private:
+  std::string_view name_;
+};
+
+/// Mirrors the picture left to right: no stage that sees less than all of it can.
+class Mirror : public TestStage {
+ public:
+  explicit Mirror(std::int64_t room = 0) : TestStage("mirror"), room_(room) {}
+  std::int64_t bytes(const FrameSize&, const StageScene&) const override { return room_; }
+  FrameOutcome run(const FramePlanes& light, const StageScene&,
+                   const ParallelFor& parallel_for) const override {
+    parallel_for(light.height, [&](int y) {
+      for (float* const plane : light.rgb)
+        std::reverse(plane + y * light.stride, plane + y * light.stride + light.width);
+    });
+    return {true, "always", 1};
+  }
+
+ private:
+  std::int64_t room_;
+};
+
+TEST(Run, a_frame_stage_sees_the_whole_picture_before_the_operator) {
+  const std::string in = temporary("frame.exr"), mirrored = temporary("frame-mirrored.exr");
+  const std::string out = temporary("frame-out.exr"), plain = temporary("frame-plain.exr");
+  write_exr(in, {picture()});
+  ImageSettings daylight = settings(10);
+  daylight.frame_stages = {std::make_shared<const Mirror>()};
+  const ImageReport report = run(in, mirrored, daylight);
+  EXPECT_TRUE(report.scene.plan.effect("mirror").runs());
+  EXPECT_EQ(report.stamps.back().name, "test:mirror");
+  for (const char* channel : {"R", "G", "B"}) {
+    const std::vector<float> before = values(in, channel), after = values(mirrored, channel);
+    for (std::size_t i = 0; i < before.size(); ++i)
+      ASSERT_EQ(after[i], before[i - i % 700 + 699 - i % 700]) << channel << i;
+  }
+  EXPECT_EQ(read_bits(in, 0, 0, 0, "Z"), read_bits(mirrored, 0, 0, 0, "Z"));
+  // What follows works on what it left: as on a file that holds it.
+  for (const bool acuity : {false, true}) {
+    ImageSettings night = settings(0.02), then = settings(0.02);
+    for (ImageSettings* s : {&night, &then}) s->acuity.asked = acuity, s->acuity.pixels_per_degree = 60;
+    night.frame_stages = daylight.frame_stages;
+    run(in, out, night);
+    run(mirrored, plain, then);
+    for (const char* channel : {"R", "G", "B"})
+      EXPECT_EQ(read_bits(out, 0, 0, 0, channel), read_bits(plain, 0, 0, 0, channel)) << channel << acuity;
+  }
+}
+
+/// Makes all light a tenth.
+class Dim : public TestStage {
+ public:
+  Dim() : TestStage("dim") {}
+  FrameOutcome run(const FramePlanes& light, const StageScene& scene, const ParallelFor&) const override {
+    adaptation = scene.parameters.adaptation;
+    for (int y = 0; y < light.height; ++y)
+      for (float* const plane : light.rgb)
+        for (int x = 0; x < light.width; ++x) plane[y * light.stride + x] *= 0.125f;
+    return {true, "always", 1};
+  }
+  mutable double adaptation = 0;
+};
+
+TEST(Run, a_frame_stage_knows_the_adaptation_to_its_input_and_the_others_that_to_its_result) {
+  const std::string in = temporary("dim.exr"), out = temporary("dim-out.exr");
+  write_exr(in, {picture()});
+  const auto dim = std::make_shared<const Dim>();
+  ImageSettings s = settings(0);
+  const double before = run(in, out, s).scene.numbers.adaptation;
+  s.frame_stages = {dim};
+  const double after = run(in, out, s).scene.numbers.adaptation;
+  EXPECT_EQ(dim->adaptation, before);
+  EXPECT_NEAR(after, before / 8, 1e-6 * before);
+}
+
+TEST(Run, memory_of_whole_pictures_is_planned_before_it_is_taken_and_told) {
+  const std::string in = temporary("memory.exr"), out = temporary("memory-out.exr");
+  write_exr(in, {picture()});
+  ImageSettings s = settings(0.02);
+  s.frame_stages = {std::make_shared<const Mirror>(std::int64_t{1} << 40)};
+  try {
+    run(in, out, s);
+    ADD_FAILURE() << "was taken";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::limit);
+  }
+  s.frame_stages = {std::make_shared<const Mirror>()};
+  std::vector<std::string> lines;
+  const Notes notes = {nullptr, [&](const std::string& line) { lines.push_back(line); }};
+  run(in, out, s, {}, notes);
+  EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
+    return line.find("whole picture is kept") != std::string::npos;
+  }));
+}
+
+TEST(Run, an_adaptation_track_has_a_value_for_each_frame) {
+  const std::string in = temporary("track.exr"), out = temporary("track-out.exr"),
+                    plain = temporary("track-plain.exr");
+  write_exr(in, {picture()});
+  ImageJob job;
+  job.adaptation = TrackedAdaptation{0.03, "the track's"};
+  const ImageReport report = run(in, out, settings(4), job);
+  EXPECT_EQ(report.scene.numbers.adaptation, 0.03);
+  EXPECT_EQ(report.scene.numbers.adaptation_source, "the track's");
+  run(in, plain, settings(0.03));
+  EXPECT_EQ(read_bits(out, 0, 0, 0, "R"), read_bits(plain, 0, 0, 0, "R"));
+}
+
+TEST(Run, bytes_depend_neither_on_threads_nor_on_stages_that_do_nothing) {
+  const std::string in = temporary("threads.exr"), out = temporary("threads-out.exr");
+  write_exr(in, {picture(1300, 211)});
+  std::vector<std::uint32_t> first;
+  for (const int threads : {1, 2, 5}) {
+    set_threads(threads);
+    ImageSettings s = settings(0);
+    s.frame_stages = {std::make_shared<const Mirror>(), std::make_shared<const Mirror>()};
+    run(in, out, s);
+    const std::vector<std::uint32_t> twice = read_bits(out, 0, 0, 0, "R");
+    run(in, out, settings(0));
+    if (first.empty()) first = twice;
+    EXPECT_TRUE(twice == first) << threads;
+    EXPECT_TRUE(read_bits(out, 0, 0, 0, "R") == first) << threads;
+  }
+  set_threads(0);
+}
+
+TEST(Run, a_scene_is_read_without_a_place_to_write) {
+  const std::string in = temporary("read.exr"), out = temporary("read-out.exr");
+  write_exr(in, {picture()});
+  ImageJob job;
+  job.input = in;
+  const SceneReport seen = read_scene(job, settings(0), Statistics::of_all_pixels, {});
+  const ImageReport made = run(in, out, settings(0));
+  EXPECT_EQ(seen.numbers.adaptation, made.scene.numbers.adaptation);
+  EXPECT_EQ(seen.statistics->photopic.count(), 700u * 83u);
+}
+
+}  // namespace
+}  // namespace scotopic
