@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "color/config/camera_spaces.h"
+#include "color/config/transforms.h"
 #include "color/primaries.h"
 
 namespace OCIO = OCIO_NAMESPACE;
@@ -27,16 +29,6 @@ OCIO::ColorSpaceRcPtr make_space(OCIO::ReferenceSpaceType reference, const Descr
   space->setDescription(d.text);
   space->setBitDepth(OCIO::BIT_DEPTH_F32);
   return space;
-}
-
-OCIO::MatrixTransformRcPtr matrix_transform(const Matrix3<double>& m) {
-  double m44[16] = {};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) m44[4 * i + j] = m[i][j];
-  m44[15] = 1.0;
-  OCIO::MatrixTransformRcPtr transform = OCIO::MatrixTransform::Create();
-  transform->setMatrix(m44);
-  return transform;
 }
 
 Matrix3<double> xyz_of(std::string_view gamut) { return gamut_xyz_matrix(gamut).value(); }
@@ -67,13 +59,6 @@ OCIO::ExponentTransformRcPtr bt1886_curve() {
   return curve;
 }
 
-template <typename... Transforms>
-OCIO::GroupTransformRcPtr group(Transforms... transforms) {
-  OCIO::GroupTransformRcPtr out = OCIO::GroupTransform::Create();
-  (out->appendTransform(transforms), ...);
-  return out;
-}
-
 void add_linear_space(OCIO::Config& config, const Description& d, std::string_view gamut) {
   OCIO::ColorSpaceRcPtr space = make_space(OCIO::REFERENCE_SPACE_SCENE, d);
   if (gamut != "ap0")
@@ -84,49 +69,55 @@ void add_linear_space(OCIO::Config& config, const Description& d, std::string_vi
 void add_scene_spaces(OCIO::Config& config) {
   add_linear_space(config,
                    {"Linear Rec.709 (sRGB)",
-                    {"Linear", "lin_rec709", "lin_srgb", "lin_rec709_srgb"},
+                    {"Linear", "lin_rec709", "lin_srgb", "lin_rec709_srgb", "lin_rec709_scene"},
                     "Scene",
                     "scene-linear",
                     "Linear light, ITU-R BT.709 primaries, D65"},
                    "rec709");
+  add_linear_space(config,
+                   {"ACES2065-1",
+                    {"aces2065_1", "lin_ap0", "ACES - ACES2065-1", "lin_ap0_scene"},
+                    "ACES",
+                    "scene-linear",
+                    "SMPTE ST 2065-1"},
+                   "ap0");
   add_linear_space(
-      config, {"ACES2065-1", {"aces2065_1", "lin_ap0"}, "ACES", "scene-linear", "SMPTE ST 2065-1"}, "ap0");
-  add_linear_space(config, {"ACEScg", {"lin_ap1"}, "ACES", "scene-linear", "AMPAS S-2014-004"}, "ap1");
+      config,
+      {"ACEScg", {"lin_ap1", "ACES - ACEScg", "lin_ap1_scene"}, "ACES", "scene-linear", "AMPAS S-2014-004"},
+      "ap1");
   add_linear_space(config,
                    {"Linear Rec.2020",
-                    {"lin_rec2020"},
+                    {"lin_rec2020", "lin_rec2020_scene"},
                     "Scene",
                     "scene-linear",
                     "Linear light, ITU-R BT.2020 primaries, D65"},
                    "rec2020");
-  add_linear_space(
-      config, {"Linear P3-D65", {"lin_p3d65"}, "Scene", "scene-linear", "Linear light, P3 primaries, D65"},
-      "p3");
+  add_linear_space(config,
+                   {"Linear P3-D65",
+                    {"lin_p3d65", "lin_p3d65_scene"},
+                    "Scene",
+                    "scene-linear",
+                    "Linear light, P3 primaries, D65"},
+                   "p3");
 
   OCIO::ColorSpaceRcPtr xyz = make_space(
       OCIO::REFERENCE_SPACE_SCENE, {"CIE XYZ-D65",
-                                    {"lin_cie_xyz_d65"},
+                                    {"lin_cie_xyz_d65", "lin_ciexyzd65_scene"},
                                     "Scene",
                                     "scene-linear",
                                     "CIE 1931 XYZ of the scene, adapted to D65 (Bradford); white has Y = 1"});
   xyz->setTransform(matrix_transform(inverse(xyz_of("ap0"))), OCIO::COLORSPACE_DIR_TO_REFERENCE);
   config.addColorSpace(xyz);
 
-  OCIO::ColorSpaceRcPtr cct =
-      make_space(OCIO::REFERENCE_SPACE_SCENE,
-                 {"ACEScct", {"acescct_ap1"}, "ACES", "log", "AMPAS S-2016-001, log grading space"});
-  OCIO::BuiltinTransformRcPtr cct_curve = OCIO::BuiltinTransform::Create();
-  cct_curve->setStyle("ACEScct_to_ACES2065-1");
-  cct->setTransform(cct_curve, OCIO::COLORSPACE_DIR_TO_REFERENCE);
-  config.addColorSpace(cct);
+  add_camera_spaces(config);
 
   OCIO::ColorSpaceRcPtr texture =
       make_space(OCIO::REFERENCE_SPACE_SCENE, {"sRGB - Texture",
-                                               {"srgb_texture", "srgb_tx"},
+                                               {"srgb_texture", "srgb_tx", "srgb_rec709_scene"},
                                                "Texture",
                                                "sdr-video",
                                                "Scene light encoded with the curve of IEC 61966-2-1"});
-  texture->setTransform(group(srgb_curve(OCIO::TRANSFORM_DIR_FORWARD, OCIO::NEGATIVE_LINEAR),
+  texture->setTransform(group_of(srgb_curve(OCIO::TRANSFORM_DIR_FORWARD, OCIO::NEGATIVE_LINEAR),
                               matrix_transform(ap0_from("rec709"))),
                         OCIO::COLORSPACE_DIR_TO_REFERENCE);
   config.addColorSpace(texture);
@@ -157,22 +148,31 @@ void add_displays(OCIO::Config& config) {
       OCIO::REFERENCE_SPACE_DISPLAY,
       {"CIE-XYZ-D65", {"cie_xyz_d65"}, "Display", "display-linear", "CIE 1931 XYZ of the display, D65"}));
   const auto encoded_by_srgb = [](std::string_view gamut) {
-    return group(matrix_transform(inverse(xyz_of(gamut))),
+    return group_of(matrix_transform(inverse(xyz_of(gamut))),
                  srgb_curve(OCIO::TRANSFORM_DIR_INVERSE, OCIO::NEGATIVE_MIRROR));
   };
-  add_display(config, {"sRGB - Display", {"sRGB", "srgb_display"}, "Display", "sdr-video", "IEC 61966-2-1"},
+  add_display(config,
+              {"sRGB - Display",
+               {"sRGB", "srgb_display", "srgb_rec709_display"},
+               "Display",
+               "sdr-video",
+               "IEC 61966-2-1"},
               encoded_by_srgb("rec709"));
   add_display(
       config,
-      {"Display P3 - Display", {"displayp3_display"}, "Display", "sdr-video", "P3, D65, curve of sRGB"},
+      {"Display P3 - Display",
+       {"displayp3_display", "srgb_p3d65_display"},
+       "Display",
+       "sdr-video",
+       "P3, D65, curve of sRGB"},
       encoded_by_srgb("p3"));
   add_display(config,
               {"Rec.1886 Rec.709 - Display",
-               {"rec1886_rec709_display"},
+               {"rec1886_rec709_display", "g24_rec709_display"},
                "Display",
                "sdr-video",
                "ITU-R BT.1886, BT.709 primaries"},
-              group(matrix_transform(inverse(xyz_of("rec709"))), bt1886_curve()));
+              group_of(matrix_transform(inverse(xyz_of("rec709"))), bt1886_curve()));
   OCIO::BuiltinTransformRcPtr pq = OCIO::BuiltinTransform::Create();
   pq->setStyle("DISPLAY - CIE-XYZ-D65_to_REC.2100-PQ");
   add_display(config,
@@ -182,6 +182,15 @@ void add_displays(OCIO::Config& config) {
                "hdr-video",
                "ITU-R BT.2100, PQ; 1 of a display's light is 100 cd/m2, views are made for a peak of 1000 cd/m2"},
               pq);
+  OCIO::BuiltinTransformRcPtr hlg = OCIO::BuiltinTransform::Create();
+  hlg->setStyle("DISPLAY - CIE-XYZ-D65_to_REC.2100-HLG-1000nit");
+  add_display(config,
+              {"Rec.2100-HLG - Display",
+               {"rec2100_hlg_display"},
+               "Display",
+               "hdr-video",
+               "ITU-R BT.2100, HLG on a display of 1000 cd/m2; 1 of a display's light is 100 cd/m2"},
+              hlg);
 }
 
 void add_roles(OCIO::Config& config) {

@@ -25,6 +25,13 @@ double largest_difference(const Matrix3<double>& a, const Matrix3<double>& b) {
   return worst;
 }
 
+/// Von Kries in a cone-like space: XYZ under white `from` to XYZ under white `to`.
+Matrix3<double> adapted(const Matrix3<double>& cone, Xy from, Xy to) {
+  const Vec3<double> a = cone * xyz_of_white(from);
+  const Vec3<double> b = cone * xyz_of_white(to);
+  return inverse(cone) * (diagonal<double>({b[0] / a[0], b[1] / a[1], b[2] / a[2]}) * cone);
+}
+
 }  // namespace
 
 const std::vector<NamedPrimaries>& known_primaries() {
@@ -58,9 +65,13 @@ Matrix3<double> xyz_from_rgb(const Primaries& p) {
 Matrix3<double> bradford(Xy from, Xy to) {
   constexpr Matrix3<double> cone{
       {{{.8951, .2664, -.1614}, {-.7502, 1.7135, .0367}, {.0389, -.0685, 1.0296}}}};
-  const Vec3<double> a = cone * xyz_of_white(from);
-  const Vec3<double> b = cone * xyz_of_white(to);
-  return inverse(cone) * (diagonal<double>({b[0] / a[0], b[1] / a[1], b[2] / a[2]}) * cone);
+  return adapted(cone, from, to);
+}
+
+Matrix3<double> cat02(Xy from, Xy to) {
+  constexpr Matrix3<double> cone{
+      {{{.7328, .4296, -.1624}, {-.7036, 1.6975, .0061}, {.0030, .0136, .9834}}}};
+  return adapted(cone, from, to);
 }
 
 Matrix3<double> xyz_d65_from_rgb(const Primaries& p) {

@@ -46,6 +46,8 @@ Matrix3<double> xyz_from_rgb(const Primaries& primaries);
 
 /// Bradford transform (Lam 1985, as in ICC.1) that takes XYZ under white `from` to XYZ under white `to`.
 Matrix3<double> bradford(Xy from, Xy to);
+/// The same by CAT02 (CIE 159:2004), which camera makers' primaries go to ACES by.
+Matrix3<double> cat02(Xy from, Xy to);
 
 /// The same, adapted to D65 (x = .3127, y = .3290). RGB (1,1,1) gives Y = 1 to 1 ulp.
 Matrix3<double> xyz_d65_from_rgb(const Primaries& primaries);

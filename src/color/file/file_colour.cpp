@@ -38,13 +38,12 @@ std::optional<Statement> by_id(const std::string& id, const std::string& file, c
   const std::string reason = fmt::format("the file's colorInteropID {}", id);
   for (std::string name = id; !name.empty(); name = name == id ? without_namespace(id) : "") {
     if (const auto known = interop_encoding(name)) return Statement{space_of(*known, name, config), reason};
-    const std::string camera = camera_curve(name);
-    if (!camera.empty())
-      throw Error(ExitCode::input, file,
-                  fmt::format("colorInteropID '{}' is {}: camera and log curves are not read here yet{}", id,
-                              camera, say_it));
     if (config.has_space(name)) return Statement{config.space(name), reason};
   }
+  const std::string camera = camera_curve(id);
+  if (!camera.empty())
+    throw Error(ExitCode::input, file,
+                fmt::format("colorInteropID '{}' is {}, which the config has no space for under that name{}", id, camera, say_it));
   throw Error(
       ExitCode::input, file,
       fmt::format(

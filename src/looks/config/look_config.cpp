@@ -4,6 +4,7 @@
 
 #include "color/base_config.h"
 #include "base/error.h"
+#include "color/config/transforms.h"
 #include "color/primaries.h"
 
 namespace OCIO = OCIO_NAMESPACE;
@@ -12,16 +13,6 @@ namespace scotopic {
 namespace {
 
 constexpr const char* looks_family = "Looks";
-
-OCIO::MatrixTransformRcPtr matrix_transform(const Matrix3<double>& m) {
-  double m44[16] = {};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) m44[4 * i + j] = m[i][j];
-  m44[15] = 1;
-  OCIO::MatrixTransformRcPtr transform = OCIO::MatrixTransform::Create();
-  transform->setMatrix(m44);
-  return transform;
-}
 
 OCIO::FileTransformRcPtr file_transform(const std::string& name, OCIO::Interpolation interpolation) {
   OCIO::FileTransformRcPtr file = OCIO::FileTransform::Create();

@@ -95,8 +95,8 @@ TEST_F(OwnConfig, a_look_is_the_same_as_look_and_as_space) {
 }
 
 TEST_F(OwnConfig, every_display_offers_one_row_of_night_views) {
-  ASSERT_EQ(config_->getNumDisplays(), 4);
-  for (int d = 0; d < 4; ++d) {
+  ASSERT_EQ(config_->getNumDisplays(), 5);
+  for (int d = 0; d < 5; ++d) {
     std::vector<std::string> views;
     for (int v = 0; v < config_->getNumViews(config_->getDisplay(d)); ++v)
       views.emplace_back(config_->getView(config_->getDisplay(d), v));
@@ -128,7 +128,8 @@ TEST_F(OwnConfig, a_night_view_is_the_operator_and_the_display_stage) {
     double peak, tolerance;  // of the peak: 17 nodes a side
   };
   for (const Row& row : {Row{"sRGB - Display", "rec709", 100, 0.03}, Row{"Rec.1886 Rec.709 - Display", "rec709", 100, 0.03},
-                         Row{"Display P3 - Display", "p3", 100, 0.03}, Row{"Rec.2100-PQ - Display", "rec2020", 1000, 0.06}})
+                         Row{"Display P3 - Display", "p3", 100, 0.03}, Row{"Rec.2100-PQ - Display", "rec2020", 1000, 0.06},
+                         Row{"Rec.2100-HLG - Display", "rec2020", 1000, 0.06}})
     for (const Vec3<float>& pixel : {Vec3<float>{0.02f, 0.05f, 0.2f}, {0.18f, 0.18f, 0.18f}, {60, 2, 0.5f}, {3000, 2000, 900}}) {
       AppearanceParameters p = test::adapted_to(0.1);
       NightDisplayParameters d;
