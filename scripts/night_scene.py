@@ -247,7 +247,7 @@ def house_left(dark):
     for y in (4, 8, 12, 16, 20):
         box("window", (-5.02, y, 4.2), (-4.98, y + 1.2, 5.8), material("pane", (0.02, 0.02, 0.03), 0.1))
     box("sign box", (-5, 6.0, 2.7), (-3.7, 6.15, 3.5), dark)
-    panel("sign", (-4.95, 5.97, 2.75), (-3.75, 6.0, 3.45), BLUE, 120, 0.04)
+    panel("sign", (-4.95, 5.97, 2.75), (-3.75, 6.0, 3.45), BLUE, 60, 0.04)
     text = bpy.data.curves.new("name", "FONT")
     text.body, text.size, text.align_x, text.offset = "BAR", 0.5, "CENTER", 0.012
     o = bpy.data.objects.new("name", text)
@@ -278,7 +278,7 @@ def car(x, y, dark):
                                                 rotation=(0, math.pi / 2, 0))
             bpy.context.object.data.materials.append(dark)
     for side, share in ((-0.82, 0), (0.60, 0.08)):
-        panel("tail lamp", (x + side, y - 0.02, 0.72), (x + side + 0.22, y + 0.02, 0.80), RED, 900, share)
+        panel("tail lamp", (x + side, y - 0.02, 0.72), (x + side + 0.22, y + 0.02, 0.80), RED, 60, share)
     box("plate", (x - 0.26, y - 0.02, 0.45), (x + 0.26, y + 0.01, 0.56), material("plate", (0.6, 0.6, 0.55)))
 
 
@@ -379,9 +379,9 @@ def build():
     houses_far(dark)
     car(1.75, -1.0, dark)
     chart(-2.95, -6.5, 0.75, dark)
-    lamp("sodium", -3.4, 7, 1.0, SODIUM, 2300, (0.30, 0.15), metal)
-    lamp("led", 3.4, 16, -1.0, LED, 2300, (0.24, 0.06), metal)
-    lamp("sodium far", -3.4, 30, 1.0, SODIUM, 2300, (0.30, 0.15), metal)
+    lamp("sodium", -3.4, 7, 1.0, SODIUM, 120, (0.12, 0.07), metal)
+    lamp("led", 3.4, 16, -1.0, LED, 120, (0.12, 0.06), metal)
+    lamp("sodium far", -3.4, 30, 1.0, SODIUM, 120, (0.12, 0.07), metal)
     spot("yard lamp out of the frame", (-9.0, -3.0, 3.5), (math.pi / 2, 0, 0), LED, 60, 120)  # the end wall's
     sky()
     camera()

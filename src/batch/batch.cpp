@@ -216,7 +216,7 @@ void apply_rgb(const WideConstants<T>& main, const WideConstants<double>& exact,
 template <typename T, class Rows>
 void apply_type(const WideConstants<T>& main, const WideConstants<double>& exact, const Rows& rows,
                 std::uint8_t* touched) {
-  if (!main.on.safko && !(main.numbers.weight.adaptation < T(photopic_luminance))) {
+  if (!main.on.safko && !(main.numbers.weight.adaptation < T(photopic_limit))) {
     if (touched) std::memset(touched, 0, rows.count);
     return;
   }

@@ -30,8 +30,6 @@ struct ImageStages {
   const Evaluator* evaluator = nullptr;  ///< pixel stages; null: nothing is called for
   SpatialFilters filters;                ///< on each picture by itself
   std::vector<const RowStage*> after;
-  /// Of the scene; for stages in `after` that ask for planes.
-  std::optional<AppearanceParameters> scene;
   Moment moment;
 };
 

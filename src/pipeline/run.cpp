@@ -13,6 +13,7 @@
 #include "pipeline/scene/scene_plan.h"
 #include "pipeline/scene/stamps.h"
 #include "pipeline/stages/frame_stages.h"
+#include "stages/time/description.h"
 
 namespace scotopic {
 namespace {
@@ -40,20 +41,53 @@ SceneNumbers meter(OpenImage& image, const ImageSettings& s, Statistics wanted, 
   return settle(image.known, adapted, image.source->file());
 }
 
-PlanRequest request_for(const ImageSettings& s, const SceneNumbers& numbers,
-                        const AngularResolution& resolution) {
-  const AppearanceParameters scene = parameters_of(s.choice, numbers.adaptation, numbers.white_luminance);
-  return plan_request(s.choice, scene, s.acuity, resolution);
+/// The eye's state at this moment, where light before the scene has left one.
+std::optional<AdaptationTrace> trace_of(const ImageJob& job, const ImageSettings& s, double adaptation) {
+  AdaptationState state;
+  if (job.adaptation && job.adaptation->state)
+    state = *job.adaptation->state;
+  else if (!s.time.history.empty())
+    state = state_after(state_after(s.time.history), adaptation, job.moment.seconds);
+  else
+    return std::nullopt;
+  return AdaptationTrace{state, thresholds_of(state, adaptation)};
 }
 
-void plan(OpenImage& image, const ImageSettings& s, SceneReport& scene) {
-  scene.resolution = angular_resolution(s.acuity, *image.source, image.layout);
-  scene.request = request_for(s, scene.numbers, scene.resolution);
+/// What stages are told, once the scene's numbers are known.
+StageScene stage_scene(const ImageSettings& s, const SceneReport& scene, bool wraps, bool tracked) {
+  StageScene out;
+  out.parameters = scene.asked;
+  out.resolution = scene.resolution;
+  out.wraps = wraps;
+  out.sequence = s.sequence;
+  out.tracked = tracked;
+  out.adapting = scene.adapting;
+  return out;
 }
 
-void decide(const ImageSettings& s, const std::vector<EffectDecision>& of_frames, SceneReport& scene) {
-  scene.plan = plan_of(s.choice, scene.request, scene.statistics ? &*scene.statistics : nullptr);
-  for (const EffectDecision& decision : of_frames) set_decision(scene.plan, decision);
+template <class Stages>
+void decide(const Stages& stages, const StageScene& scene, std::vector<EffectDecision>& out) {
+  for (const auto& stage : stages) out.push_back(stage->decide(scene));
+}
+
+/// Decides what is computed.
+void plan(const ImageJob& job, OpenImage& image, const ImageSettings& s,
+          const std::vector<EffectDecision>& of_frames, SceneReport& scene) {
+  const SceneNumbers& numbers = scene.numbers;
+  scene.resolution = angular_resolution(s.viewing, *image.source, image.layout);
+  scene.asked = parameters_of(s.choice, numbers.adaptation, numbers.white_luminance);
+  scene.adapting = trace_of(job, s, numbers.adaptation);
+  std::vector<EffectDecision> decided = of_frames;
+  const StageScene of_stages = stage_scene(s, scene, image.layout.wraps, job.adaptation.has_value());
+  try {
+    decide(s.filter_stages, of_stages, decided);
+    decide(s.point_stages, of_stages, decided);
+  } catch (const Error& error) {
+    throw Error(error.code(), image.source->file(), error.what());
+  }
+  scene.plan = plan_of(s.choice, scene.asked, scene.statistics ? &*scene.statistics : nullptr, decided);
+  if (scene.adapting && scene.plan.effect(time_description.name).runs())
+    scene.plan.parameters.rod_adaptation = scene.adapting->thresholds.rod_luminance;
 }
 
 /// The scene's numbers: what frame stages change, they change before the eye adapts to it.
@@ -66,12 +100,12 @@ void see_scene(OpenImage& image, const ImageSettings& s, Statistics wanted, Fram
 }
 
 /// Of the filter and of the rest, before either is allocated.
-void check_acuity_memory(const SpatialFilter& acuity, const OpenImage& image, const Limits& limits,
+void check_filter_memory(const SpatialFilter& filter, const OpenImage& image, const Limits& limits,
                          std::int64_t frames) {
   for (const LightPicture& light : image.layout.light) {
     const Picture& picture = image.source->pictures()[light.index];
     check_limit(image.source->file(), "bytes of memory planned",
-                frames + planned_bytes(picture) + acuity_bytes(acuity, picture, image.layout.wraps),
+                frames + planned_bytes(picture) + acuity_bytes(filter, picture, image.layout.wraps),
                 limits.memory, "--max-memory");
   }
 }
@@ -86,6 +120,7 @@ class ImageRun {
   ImageReport run() {
     OpenImage image = open_image(settings_, job_.input, job_.output, notes_);
     follow_track(job_, image.known);
+    set_moment(image);
     refuse_idle_options(settings_.display, image.layout);
     describe_layout(*image.source, settings_.config, image.layout, notes_);
     FramesOfImage frames(image, settings_, job_.moment, notes_);
@@ -104,41 +139,66 @@ class ImageRun {
     const std::string& file = image.source->file();
     see_scene(image, settings_, Statistics::where_needed, frames, scene);
     notes_.note(file + ": " + scotopic::describe(scene.numbers));
-    plan(image, settings_, scene);
-    if (scene.request.acuity && !scene.resolution.known)
-      throw Error(ExitCode::usage, file,
-                  "detail needs pixels per degree, which are not known: --fov or --ppd");
-    decide(settings_, frames.decisions(), scene);
+    plan(job_, image, settings_, frames.decisions(), scene);
     notes_.note(file + ": " + plan_line(scene.plan));
+  }
+
+  /// Said where it matters: seconds are of noise and time alone.
+  void set_moment(const OpenImage& image) {
+    if (!settings_.sequence) return;
+    const FrameRate rate = frame_rate(settings_.choice.stages, *image.source);
+    job_.moment.seconds = job_.moment.frame / rate.rate;
+    notes_.detail(fmt::format("{}: {:g} frames a second ({})", image.source->file(), rate.rate, rate.source));
   }
 
   void make_stages(OpenImage& image, const FramesOfImage& frames) {
     const AppearanceParameters& parameters = report_.scene.plan.parameters;
     stages_.non_finite = settings_.non_finite;
     stages_.frames = frames.lights();
-    stages_.scene = parameters;
     stages_.moment = job_.moment;
-    if (report_.scene.plan.acuity) add_acuity(image, frames, parameters);
     report_.evaluator = evaluators_.evaluator(parameters, image.has_receptors(), notes_);
-    if (!report_.scene.plan.nothing()) stages_.evaluator = report_.evaluator.get();
+    if (pixel_stages_run()) stages_.evaluator = report_.evaluator.get();
     report_.stamps = stamps(image);
-    add_rows(image, parameters);
+    scene_ = stage_scene(settings_, report_.scene, image.layout.wraps, job_.adaptation.has_value());
+    scene_.parameters.rod_adaptation = parameters.rod_adaptation;
+    scene_.precision = report_.evaluator->precision();
+    add_filters(image, frames);
+    add_points();
     add_display(image, parameters);
-    report_.stamps.insert(report_.stamps.end(), frames.stamps().begin(), frames.stamps().end());
+    add_stamps(frames.stamps());
     set_stamps(image.layout, report_.stamps);
   }
 
-  void add_acuity(const OpenImage& image, const FramesOfImage& frames,
-                  const AppearanceParameters& parameters) {
-    acuity_ = acuity_filter(settings_.acuity, parameters, report_.scene.resolution, notes_);
-    check_acuity_memory(*acuity_, image, settings_.limits, frames.bytes());
-    stages_.filters.push_back(acuity_.get());
+  /// Those of the fused loop.
+  bool pixel_stages_run() const {
+    const StageTable table = settings_.choice.stages.table();
+    for (const EffectDecision& d : report_.scene.plan.effects) {
+      const std::size_t place = place_of(table, d.effect);
+      if (d.runs() && place < table.size() && table[place].set) return true;
+    }
+    return false;
   }
 
-  void add_rows(const OpenImage& image, const AppearanceParameters& parameters) {
-    const StageScene scene = {parameters, report_.scene.resolution, image.layout.wraps};
-    for (const RowStageMaker& make : settings_.row_stages)
-      if (auto stage = make(scene)) stages_.after.push_back(rows_.emplace_back(std::move(stage)).get());
+  void add_stamps(const std::vector<Attribute>& more) {
+    report_.stamps.insert(report_.stamps.end(), more.begin(), more.end());
+  }
+
+  void add_filters(const OpenImage& image, const FramesOfImage& frames) {
+    for (const auto& stage : settings_.filter_stages) {
+      if (!report_.scene.plan.effect(stage->name()).runs()) continue;
+      filters_.push_back(stage->make(scene_, notes_));
+      check_filter_memory(*filters_.back(), image, settings_.limits, frames.bytes());
+      stages_.filters.push_back(filters_.back().get());
+      add_stamps(stage->stamps(scene_));
+    }
+  }
+
+  void add_points() {
+    for (const auto& stage : settings_.point_stages) {
+      if (!report_.scene.plan.effect(stage->name()).runs()) continue;
+      stages_.after.push_back(rows_.emplace_back(stage->make(scene_, notes_)).get());
+      add_stamps(stage->stamps(scene_));
+    }
   }
 
   void add_display(OpenImage& image, const AppearanceParameters& parameters) {
@@ -148,8 +208,8 @@ class ImageRun {
     night_ = night_stage(settings_.display, parameters, report_.evaluator->precision(), image.source->file(),
                          image.layout, notes_);
     if (night_.rows) stages_.after.push_back(night_.rows.get());
-    for (const auto* more : {&tone_.stamps, &night_.stamps})
-      report_.stamps.insert(report_.stamps.end(), more->begin(), more->end());
+    add_stamps(tone_.stamps);
+    add_stamps(night_.stamps);
     report_.tone = tone_.report;
     report_.night = night_.report;
   }
@@ -158,8 +218,6 @@ class ImageRun {
     const SceneReport& scene = report_.scene;
     std::vector<Attribute> out = parameter_stamps(scene.plan.parameters, settings_.choice, image.layout);
     out.push_back({"scotopic:precision", report_.evaluator->name()});
-    if (scene.plan.acuity)
-      out.push_back({"scotopic:acuityPixelsPerDegree", scene.resolution.pixels_per_degree});
     if (!job_.provenance.empty()) out.push_back({provenance_attribute, job_.provenance});
     correct_stamps(out, settings_.display, image.layout);
     return out;
@@ -176,13 +234,14 @@ class ImageRun {
     report_.scene.spectral = spectral_report_of(*image.source);
   }
 
-  const ImageJob& job_;
+  ImageJob job_;
   const ImageSettings& settings_;
   EvaluatorSource& evaluators_;
   const Notes& notes_;
   OutputFile file_;
   ImageStages stages_;
-  std::unique_ptr<SpatialFilter> acuity_;
+  StageScene scene_;
+  std::vector<std::unique_ptr<SpatialFilter>> filters_;
   std::vector<std::unique_ptr<const RowStage>> rows_;
   ToneStage tone_;
   NightStage night_;
@@ -196,22 +255,40 @@ ImageReport run_image(const ImageJob& job, const ImageSettings& settings, Evalua
   return ImageRun(job, settings, evaluators, notes).run();
 }
 
-SceneReport read_scene(const ImageJob& job, const ImageSettings& settings, Statistics wanted,
+SceneReport read_scene(const ImageJob& asked, const ImageSettings& settings, Statistics wanted,
                        const Notes& notes) {
+  ImageJob job = asked;
   OpenImage image = open_to_read(settings, job.input, notes);
   follow_track(job, image.known);
+  if (settings.sequence)
+    job.moment.seconds = job.moment.frame / frame_rate(settings.choice.stages, *image.source).rate;
   FramesOfImage frames(image, settings, job.moment, notes);
   SceneReport scene;
   see_scene(image, settings, wanted, frames, scene);
-  plan(image, settings, scene);
-  decide(settings, frames.decisions(), scene);
+  plan(job, image, settings, frames.decisions(), scene);
   scene.spectral = spectral_report_of(*image.source);
   return scene;
 }
 
+FrameRate frame_rate(const StageValues& values, const PixelSource& source) {
+  if (values.number("fps") > 0) return {values.number("fps"), "--fps"};
+  for (const Attribute& a : source.attributes(0)) {
+    const auto* const rate = std::get_if<double>(&a.value);
+    if (a.name == "framesPerSecond" && rate && *rate > 0) return {*rate, "the file's"};
+  }
+  return {};
+}
+
 ScenePlan plan_for(const ImageSettings& settings, const SceneNumbers& numbers,
                    const AngularResolution& resolution, const SceneStatistics* statistics) {
-  return plan_of(settings.choice, request_for(settings, numbers, resolution), statistics);
+  SceneReport scene;
+  scene.asked = parameters_of(settings.choice, numbers.adaptation, numbers.white_luminance);
+  scene.resolution = resolution;
+  const StageScene of_stages = stage_scene(settings, scene, false, true);
+  std::vector<EffectDecision> decided;
+  decide(settings.filter_stages, of_stages, decided);
+  decide(settings.point_stages, of_stages, decided);
+  return plan_of(settings.choice, scene.asked, statistics, decided);
 }
 
 }  // namespace scotopic

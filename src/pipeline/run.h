@@ -19,8 +19,9 @@ namespace scotopic {
 
 /// What an adaptation track says of one frame.
 struct TrackedAdaptation {
-  double luminance = 0;  ///< cd/m2
-  std::string source;    ///< how it is known, in words
+  double luminance = 0;                  ///< cd/m2
+  std::string source;                    ///< how it is known, in words
+  std::optional<AdaptationState> state;  ///< of an eye that is not adapted to it yet
 };
 
 /// One image to be made.
@@ -28,7 +29,7 @@ struct ImageJob {
   std::string input;
   std::string output;
   std::string provenance;  ///< stamped on the output where not empty
-  Moment moment;
+  Moment moment;  ///< its seconds follow from the frame
   std::optional<TrackedAdaptation> adaptation;  ///< in place of the settings'
   Progress progress;                            ///< of its rows
 };
@@ -39,9 +40,10 @@ struct SceneReport {
   /// Of all pixels, or of the metered region alone; nullopt where nothing depends on them.
   std::optional<SceneStatistics> statistics;
   NonFinitePixels non_finite;  ///< where all pixels were looked at
-  PlanRequest request;
+  AppearanceParameters asked;  ///< before the plan
   ScenePlan plan;
   AngularResolution resolution;
+  std::optional<AdaptationTrace> adapting;
   std::optional<SpectralReport> spectral;
 };
 
@@ -70,6 +72,13 @@ enum class Statistics { of_all_pixels, where_needed };
 /// Opens an image to read it, meters it and plans; decodes it once at most.
 SceneReport read_scene(const ImageJob& job, const ImageSettings& settings, Statistics wanted,
                        const Notes& notes);
+
+/// Frames a second, --fps, else the file's framesPerSecond, else 24; and which of these, in words.
+struct FrameRate {
+  double rate = 24;
+  std::string source = "assumed";
+};
+FrameRate frame_rate(const StageValues& values, const PixelSource& source);
 
 /// The plan for a scene whose numbers are known: without statistics by those alone.
 ScenePlan plan_for(const ImageSettings& settings, const SceneNumbers& numbers,

@@ -1,6 +1,8 @@
 #include "pipeline/settings.h"
 
+#include "base/error.h"
 #include "color/primaries.h"
+#include "pipeline/stages/stages.h"
 
 namespace scotopic {
 
@@ -19,6 +21,25 @@ AppearanceParameters parameters_of(const OperatorChoice& choice, double adaptati
 
 AppearanceParameters parameters_of(const OperatorChoice& choice, double adaptation) {
   return parameters_of(choice, adaptation, choice.white_luminance.value_or(adaptation / middle_grey));
+}
+
+void add_stages(ImageSettings& settings) {
+  for (const StageEntry& entry : settings.choice.stages.table())
+    if (entry.add) entry.add(settings.choice.stages, settings);
+}
+
+EffectDecision asked_at_resolution(const StageValues& values, const StageDescription& stage, bool named,
+                                   const StageScene& scene) {
+  const EffectWish wish = values.wish(stage.name);
+  const bool model_has_it = scene.parameters.model != Model::safko2019;
+  const bool by_name = named || (wish == EffectWish::yes && model_has_it);
+  if (by_name && !scene.resolution.known)
+    throw Error(ExitCode::usage, "",
+                std::string(stage.name) + " needs pixels per degree, which are not known: --fov or --ppd");
+  EffectDecision d{.effect = stage.name};
+  d.asked = by_name || (wish == EffectWish::if_known && model_has_it && scene.resolution.known);
+  d.reason = scene.resolution.known ? "not asked for" : "pixels per degree are not known (--ppd, --fov)";
+  return d;
 }
 
 void check_spaces(const ImageRequest& request, const ColourConfig& config) {

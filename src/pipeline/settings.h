@@ -7,16 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "adaptation/dark_adaptation.h"
 #include "base/limits.h"
 #include "color/colour_config.h"
 #include "io/spectral/spectral_source.h"
 #include "pipeline/layout.h"
 #include "pipeline/rows/non_finite.h"
 #include "pipeline/rows/stages.h"
-#include "stages/acuity/filter.h"
+#include "pipeline/stages/stage_values.h"
 #include "stages/display/local/display.h"
 #include "stages/display/night_display.h"
-#include "stages/glare/filter.h"
 #include "stages/shared/parameters.h"
 
 namespace scotopic {
@@ -35,10 +35,6 @@ struct IlluminantChoice {
   std::optional<Spectrum> spectrum;
 };
 
-/// Whether --effects asks for a stage that looks at neighbours: in a list by name; all and auto only where
-/// pixels per degree are known.
-enum class EffectWish { no, if_known, yes };
-
 /// The pixel stages. Adaptation, white luminance and primaries in `parameters` are those of a scene; see
 /// parameters_of().
 struct OperatorChoice {
@@ -48,20 +44,21 @@ struct OperatorChoice {
   AdaptationMethod metering;
   std::optional<double> white_luminance;  ///< cd/m2; nullopt: the file's, or from the adaptation
   bool plan_effects = false;              ///< --effects auto
-  EffectWish acuity = EffectWish::no;
-  EffectWish glare = EffectWish::no;
+  StageValues stages;                     ///< wishes and values of all stages
   std::string gamut = "working";
   IlluminantChoice illuminant;
 };
 
-/// Detail, and how large a pixel is.
-struct AcuityChoice {
+/// How large a pixel is to the viewer.
+struct ViewingChoice {
   std::optional<bool> panorama;  ///< nullopt: as the file says
-  bool asked = false;
-  bool local = false;           ///< sigma follows each pixel's own surroundings
-  AcuityParameters parameters;  ///< sigma, white and primaries are not set yet
   std::optional<double> pixels_per_degree;
   std::optional<double> field_of_view;  ///< degrees, of the width of the display window
+};
+
+/// Light that the eye was in before.
+struct TimeChoice {
+  std::vector<AdaptationPeriod> history;  ///< before frame 0; empty: ever in the scene's own light
 };
 
 /// What a display is sent. The scene's numbers in both sets of parameters are not set yet.
@@ -73,31 +70,27 @@ struct DisplayChoice {
   std::string of_night;               ///< an option given that only the display stage knows; empty: none
 };
 
-/// Light that the eye scatters.
-struct GlareChoice {
-  GlareRule rule = GlareRule::above;
-  std::optional<double> threshold;  ///< image units; nullopt: what the display cannot show
-  GlareEye eye;
-  double strength = 1;
-  bool off = false;    ///< --glare none
-  bool named = false;  ///< --glare was given
-};
-
 /// Everything.
 struct ImageSettings {
   explicit ImageSettings(ColourConfig in_force) : config(std::move(in_force)) {}
 
   OperatorChoice choice;
-  AcuityChoice acuity;
+  ViewingChoice viewing;
+  TimeChoice time;
   DisplayChoice display;
   ImageRequest request;
   NonFinite non_finite = NonFinite::keep;
   Limits limits;
   SpectralOptions spectral;
   ColourConfig config;
-  FrameStages frame_stages;               ///< before the pixel stages, in this order
-  std::vector<RowStageMaker> row_stages;  ///< after those that look around, before the display
+  bool sequence = false;       ///< images are frames of one
+  FrameStages frame_stages;    ///< before the pixel stages, in this order
+  FilterStages filter_stages;  ///< after them
+  PointStages point_stages;    ///< after those that look around, before the display
 };
+
+/// Adds the stages of choice.stages: when all else is set.
+void add_stages(ImageSettings& settings);
 
 /// Sets the primaries: those of the config's working space, and of the gamut chosen.
 void set_primaries(OperatorChoice& choice, const ColourConfig& config);

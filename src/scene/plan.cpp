@@ -5,10 +5,9 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "stages/acuity/cutoff.h"
 #include "stages/shared/colour_difference.h"
 #include "stages/reference.h"
-#include "stages/table.h"
+#include "stages/limits.h"
 
 namespace scotopic {
 namespace {
@@ -29,15 +28,15 @@ struct Darkness {
 Darkness darkness(const AppearanceParameters& p, const SceneStatistics* s) {
   const bool local = p.weight == Weight::local && s && s->finite() > 0;
   const double least = local ? p.adaptation + std::max(0.0, double{s->least} * p.white_luminance) : p.adaptation;
-  if (!(least < photopic_luminance)) return {least, 0, local};
-  const double limit = (photopic_luminance - p.adaptation) / p.white_luminance;
+  if (!(least < photopic_limit)) return {least, 0, local};
+  const double limit = (photopic_limit - p.adaptation) / p.white_luminance;
   return {least, local ? 1 - s->photopic.share_from(limit) : 1, local};
 }
 
 EffectDecision decide_dark(std::string_view effect, double strength, const Darkness& dark) {
   EffectDecision d{.effect = effect, .asked = strength > 0, .number = dark.least_local,
-                   .threshold = photopic_luminance, .unit = "cd/m2"};
-  d.needed = dark.least_local < photopic_luminance;
+                   .threshold = photopic_limit, .unit = "cd/m2"};
+  d.needed = dark.least_local < photopic_limit;
   d.share = d.needed ? dark.share : 0;
   const char* what = dark.from_pixels ? "the darkest pixel is adapted to" : "the eye is adapted to";
   d.reason = what + text(d.needed ? " %.4g cd/m2, below %g" : " %.4g cd/m2, not below %g", d.number, d.threshold);
@@ -66,30 +65,6 @@ void decide_safko(ScenePlan& plan) {
     d.share = 1;
     d.reason = "safko2019 acts at every luminance";
   }
-}
-
-EffectDecision decide_acuity(const PlanRequest& request) {
-  EffectDecision d{.effect = "acuity", .asked = request.acuity, .unit = "cycles/degree"};
-  d.threshold = acuity_cutoff(request.parameters.adaptation);
-  if (!request.pixels_per_degree) {
-    d.needed = request.acuity;
-    d.reason = text("pixels per degree are not known (--ppd, --fov); the eye resolves %.3g cycles/degree", d.threshold, 0);
-    d.share = d.needed ? 1 : 0;
-    return d;
-  }
-  d.number = *request.pixels_per_degree / 2;
-  d.needed = d.number > d.threshold;
-  d.share = d.needed ? 1 : 0;
-  d.reason = text(d.needed ? "the picture holds %.3g cycles/degree, the eye resolves %.3g"
-                           : "the picture holds %.3g cycles/degree, all of which the eye resolves (%.3g)",
-                  d.number, d.threshold);
-  return d;
-}
-
-EffectDecision not_simulated(std::string_view effect) {
-  EffectDecision d{.effect = effect, .simulated = false};
-  d.reason = "not simulated";
-  return d;
 }
 
 // Largest dE00 between results with and without the effect, over the samples.
@@ -127,21 +102,15 @@ bool ScenePlan::nothing() const noexcept {
   return std::none_of(effects.begin(), effects.end(), [](const EffectDecision& d) { return d.runs(); });
 }
 
-ScenePlan plan_scene(const PlanRequest& request, const SceneStatistics* statistics) {
-  const AppearanceParameters& p = request.parameters;
+ScenePlan plan_scene(const AppearanceParameters& p, const SceneStatistics* statistics) {
   const Darkness dark = darkness(p, statistics);
   ScenePlan plan;
   plan.parameters = p;
   plan.effects = {decide_dark("shift", p.strength.all * p.strength.shift, dark),
                   decide_luminance(p, dark, statistics),
-                  decide_dark("chroma", p.strength.all * p.strength.chroma, dark),
-                  decide_acuity(request),
-                  not_simulated("glare"),
-                  not_simulated("noise"),
-                  not_simulated("time")};
+                  decide_dark("chroma", p.strength.all * p.strength.chroma, dark)};
   if (p.model == Model::safko2019) {
     decide_safko(plan);
-    plan.acuity = plan.effect("acuity").runs();
     return plan;
   }
   if (statistics) measure_differences(plan, p, *statistics);
@@ -150,7 +119,6 @@ ScenePlan plan_scene(const PlanRequest& request, const SceneStatistics* statisti
   // Where mesopic luminance equals photopic, the shift's own brightening still has to be undone.
   if (!plan.effect("luminance").needed && p.luminance == LuminancePolicy::mesopic)
     plan.parameters.luminance = plan.effect("shift").runs() ? LuminancePolicy::photopic : LuminancePolicy::none;
-  plan.acuity = plan.effect("acuity").runs();
   return plan;
 }
 

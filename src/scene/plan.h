@@ -1,7 +1,6 @@
 // Which effects a scene calls for, and why: a pure function of what was measured and what was asked.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,17 +15,9 @@ namespace scotopic {
 /// sometimes proposed, skipping can be seen (.65 dE00 for a bluish grey; tests/scene).
 inline constexpr double sp_tolerance = 0.002;
 
-/// What was asked for.
-struct PlanRequest {
-  AppearanceParameters parameters;  ///< La and unit resolved; strengths as asked, 0 = switched off by the user
-  bool acuity = false;              ///< asked for
-  std::optional<double> pixels_per_degree;
-};
-
 /// Whether one effect runs, and why.
 struct EffectDecision {
-  std::string_view effect;  ///< shift, luminance, chroma, acuity; glare, noise, time
-  bool simulated = true;    ///< this program can do it
+  std::string_view effect;  ///< the stage's name
   bool asked = false;
   bool needed = false;      ///< the scene calls for it
   double number = 0;        ///< what decided, in `unit`
@@ -36,15 +27,14 @@ struct EffectDecision {
   double share = 0;         ///< of pixels that it would touch, 0 to 1
   double difference = 0;    ///< largest dE00, exposed to mid-grey, it makes over the samples
 
-  /// It can be done, was asked for, and the scene calls for it.
-  bool runs() const noexcept { return simulated && asked && needed; }
+  /// It was asked for, and the scene calls for it.
+  bool runs() const noexcept { return asked && needed; }
 };
 
 /// The decisions, and what to compute.
 struct ScenePlan {
   std::vector<EffectDecision> effects;
   AppearanceParameters parameters;  ///< of the run: effects that are not needed are off
-  bool acuity = false;              ///< the acuity filter runs
 
   /// The decision about an effect; throws std::out_of_range for a name that is none.
   const EffectDecision& effect(std::string_view name) const;
@@ -52,9 +42,10 @@ struct ScenePlan {
   bool nothing() const noexcept;
 };
 
-/// Decides. Without statistics the decision rests on La alone, and pixels are skipped one by one where they are.
+/// Decides about the pixel stages; the others decide for themselves (pipeline/stages). Without statistics the decision rests on La alone, and pixels are skipped one by one where they are.
 /// Skipping shift, luminance and chroma as planned changes no bit where all of Lloc >= 5 cd/m2; skipping mesopic
 /// luminance alone (S/P within sp_tolerance) changes a colour by at most .05 dE00.
-ScenePlan plan_scene(const PlanRequest& request, const SceneStatistics* statistics);
+/// `asked`: La and unit of the scene; strengths as asked, 0 = switched off by the user.
+ScenePlan plan_scene(const AppearanceParameters& asked, const SceneStatistics* statistics);
 
 }  // namespace scotopic

@@ -15,7 +15,7 @@
 #include "stages/chroma/chroma-inl.h"
 #include "stages/luminance/luminance-inl.h"
 #include "stages/shift/shift-inl.h"
-#include "stages/table.h"
+#include "stages/limits.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace scotopic::HWY_NAMESPACE {
@@ -53,7 +53,7 @@ class PixelStages {
     V local = n_.constant(k_.weight.adaptation);
     if (!any || on_.local) local = local + n_.max(n_.zero(), y * n_.constant(k_.weight.unit));
     // First what a lit picture is skipped by: its luminance, where that is no difference. NaN is not below.
-    const V limit = n_.number(T(photopic_luminance));
+    const V limit = n_.number(T(photopic_limit));
     seen.active = n_.less(local, limit);
     seen.doubtful = n_.never();
     if constexpr (needs_more_digits)
@@ -105,7 +105,7 @@ class PixelStages {
     const Triple<V> cones = times(n_, k_.receptors.lms_from_rgb, p.rgb);
     if constexpr (needs_more_digits)
       seen.doubtful = n_.both(seen.active, n_.either(seen.doubtful, below_zero(n_, has_cones(p) ? p.cones : cones)));
-    const V share = n_.rod_share(local, k_.weight);
+    const V share = n_.rod_share(any ? local + n_.constant(k_.weight.behind) : local, k_.weight);
     PixelState<V> s{p, p.rgb, cones, cones, y, local, rods(p, y), share};
     if (shift_on()) shift(n_, k_.shift, k_.receptors, *this, s);
     if (luminance_on()) luminance(n_, k_.luminance, k_.receptors, *this, s);

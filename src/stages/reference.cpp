@@ -5,7 +5,7 @@
 #include "receptors/receptor_space.h"
 #include "stages/pixel_stages-inl.h"
 #include "stages/shared/scalar-inl.h"
-#include "stages/table.h"
+#include "stages/limits.h"
 
 namespace scotopic {
 namespace {

@@ -142,7 +142,7 @@ const std::vector<Fault>& faults() {
       {apply({"--effects", "auto,shift"}), 2, "stand alone"},
       {apply({"--strength", "50%"}), 2, "--strength: '50%'"},
       {apply({"--strength", "inf"}), 2, "--strength: 'inf'"},
-      {apply({"--strength-acuity", "2"}), 2, "--strength-acuity: '2'"},
+      {apply({"--strength-acuity", "2"}), 2, "--strength-detail: '2'"},
       {apply({"--weight", ""}), 2, "--weight: ''"},
       {apply({"--luminance", "mesopik"}), 2, "did you mean mesopic?"},
       {apply({"--gamut", "srgb"}), 2, "--gamut: 'srgb'"},

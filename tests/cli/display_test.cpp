@@ -104,7 +104,7 @@ TEST_F(DisplayOutput, detail_needs_pixels_per_degree_assumes_them_on_a_display_a
   EXPECT_EQ(run("a.exr", {"--effects", "acuity"}).exit_code, 2);
   EXPECT_NE(run("a.png", {"--acuity"}).err.find("assumed: the picture is 40 degrees wide"), std::string::npos);
   // Nyquist of 300 pixels over 360 degrees.
-  EXPECT_NEAR(applied("b.png", {"--projection", "latlong"}).at("effects").at("acuity").at("number").get<double>(),
+  EXPECT_NEAR(applied("b.png", {"--projection", "latlong", "--detail", "bilateral"}).at("effects").at("detail").at("number").get<double>(),
               150.0 / 360, 1e-9);
   EXPECT_EQ(run("c.exr", {}).exit_code, 0);
 }

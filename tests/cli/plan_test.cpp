@@ -93,18 +93,18 @@ TEST_F(Plan, acuity_takes_its_word_with_or_without_an_equals_sign_or_none_before
   EXPECT_NE(seen({path("in.exr"), "--acuity", "local"}).find("sigma up to"), std::string::npos);
   EXPECT_NE(seen({path("in.exr"), "--acuity=local"}).find("sigma up to"), std::string::npos);
   const std::string global = seen({"--acuity", path("in.exr")});
-  EXPECT_NE(global.find("acuity: "), std::string::npos) << global;
+  EXPECT_NE(global.find("detail: "), std::string::npos) << global;
   EXPECT_EQ(global.find("sigma up to"), std::string::npos) << global;
 }
 
 TEST_F(Plan, acuity_runs_only_where_the_picture_holds_more_than_the_eye_resolves) {
   // At .01 cd/m2 the eye resolves 5.31 cycles a degree.
   apply("plain.exr", {"--adaptation", "0.01", "-q"});
-  const test::Outcome coarse = apply("coarse.exr", {"--adaptation", "0.01", "--ppd", "10.6"});
-  EXPECT_NE(coarse.err.find("skipped acuity"), std::string::npos) << coarse.err;
+  const test::Outcome coarse = apply("coarse.exr", {"--adaptation", "0.01", "--ppd", "10.6", "--detail", "bilateral"});
+  EXPECT_NE(coarse.err.find("detail (the picture holds"), std::string::npos) << coarse.err;
   EXPECT_EQ(pixels("coarse.exr"), pixels("plain.exr"));
-  const test::Outcome fine = apply("fine.exr", {"--adaptation", "0.01", "--ppd", "60"});
-  EXPECT_EQ(fine.err.find("acuity ("), std::string::npos) << fine.err;
+  const test::Outcome fine = apply("fine.exr", {"--adaptation", "0.01", "--ppd", "60", "--detail", "bilateral"});
+  EXPECT_EQ(fine.err.find("detail ("), std::string::npos) << fine.err;
   EXPECT_NE(pixels("fine.exr"), pixels("plain.exr"));
 }
 
@@ -177,13 +177,13 @@ TEST_F(Plan, mesopic_luminance_is_skipped_up_to_the_tolerance_and_that_cannot_be
 TEST_F(Plan, acuity_turns_on_where_the_picture_s_finest_detail_meets_what_the_eye_resolves) {
   // At .01 cd/m2, 5.3137 cycles a degree, by the very number that explain prints.
   const test::Outcome explained =
-      test::run_program({"explain", path("in.exr"), "--adaptation", "0.01", "--ppd", "20", "--json"});
-  const double limit = nlohmann::json::parse(explained.out)["effects"]["acuity"]["threshold"].get<double>();
+      test::run_program({"explain", path("in.exr"), "--adaptation", "0.01", "--ppd", "20", "--detail", "bilateral", "--json"});
+  const double limit = nlohmann::json::parse(explained.out)["effects"]["detail"]["threshold"].get<double>();
   apply("plain.exr", {"--adaptation", "0.01", "-q"});
   for (const double share : {0.999, 1.001}) {
     const std::string ppd = std::to_string(2 * limit * share);
-    const test::Outcome outcome = apply("seen.exr", {"--adaptation", "0.01", "--ppd", ppd});
-    EXPECT_EQ(outcome.err.find("skipped acuity") != std::string::npos, share < 1) << outcome.err;
+    const test::Outcome outcome = apply("seen.exr", {"--adaptation", "0.01", "--ppd", ppd, "--detail", "bilateral"});
+    EXPECT_EQ(outcome.err.find("detail (the picture holds") != std::string::npos, share < 1) << outcome.err;
     EXPECT_EQ(pixels("seen.exr") == pixels("plain.exr"), share < 1) << share;
   }
 }
@@ -208,13 +208,13 @@ TEST_F(Plan, explain_tells_every_effect_with_number_threshold_and_reason) {
                                                    "--plot", path("light.svg")});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const nlohmann::json report = nlohmann::json::parse(outcome.out);
-  for (const char* effect : {"shift", "luminance", "chroma", "acuity"}) {
+  for (const char* effect : {"shift", "luminance", "chroma", "detail"}) {
     const nlohmann::json& e = report["effects"][effect];
     EXPECT_TRUE(e["runs"].get<bool>()) << effect;
     EXPECT_FALSE(e["reason"].get<std::string>().empty());
     EXPECT_GT(e["threshold"].get<double>(), 0);
   }
-  for (const char* effect : {"glare", "noise", "time"}) EXPECT_FALSE(report["effects"][effect]["simulated"].get<bool>());
+  for (const char* effect : {"noise", "time"}) EXPECT_FALSE(report["effects"][effect]["asked"].get<bool>());
   EXPECT_GT(report["effects"]["shift"]["largestDifference"].get<double>(), 0.5);
   double share = report["darkShare"].get<double>();
   for (const nlohmann::json& bar : report["histogram"]) share += bar["share"].get<double>();

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "stages/table.h"
+#include "stages/limits.h"
 
 namespace scotopic::test {
 
@@ -55,7 +55,7 @@ template double relative_error(const Vec3<double>&, const Vec3<long double>&, co
 Strain strain(const OperatorConstants& c, const Sample& sample, Planes planes) {
   const ReferencePixel pixel = sample.widened(planes);
   const bool operable = size_in(sample, planes) <= operable_limit;
-  const bool photopic = c.parameters.model != Model::safko2019 && local_luminance(c, pixel.rgb) >= photopic_luminance;
+  const bool photopic = c.parameters.model != Model::safko2019 && local_luminance(c, pixel.rgb) >= photopic_limit;
   if (!operable || photopic) return {};
   const double rod = std::max(0.0, pixel.rod ? *pixel.rod : rod_signal_from_rgb(c, pixel.rgb));
   Strain out;

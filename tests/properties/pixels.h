@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "stages/table.h"
+#include "stages/limits.h"
 #include "properties/property.h"
 #include "support/primaries.h"
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "adaptation/mesopic.h"
-#include "stages/table.h"
+#include "stages/limits.h"
 #include "support/primaries.h"
 
 namespace scotopic::test {
@@ -26,7 +26,7 @@ constexpr std::array<const char*, threshold_count> threshold_names = {
     "q + kappa r = 0", "face of the gamut", "2^120"};
 
 // In cd/m2, of the first five.
-const std::array<double, 5> local_luminances = {photopic_luminance, mesopic_photopic_limit(), 0.005,
+const std::array<double, 5> local_luminances = {photopic_limit, mesopic_photopic_limit(), 0.005,
                                                 mesopic_scotopic_limit(), 0.001};
 
 // A wide gamut, sums of primaries equal to white's: AP0-like, with imaginary primaries.
@@ -117,7 +117,7 @@ std::array<Sum, 3> shifted(const OperatorConstants& c, const ReferencePixel& pix
 // Of two colours dark enough to be shifted, a mixture whose shifted colour lies on a face.
 std::optional<Rgb> on_a_face(const OperatorConstants& c, Random& random) {
   const auto& p = c.parameters;
-  const double room = photopic_luminance - p.adaptation;
+  const double room = photopic_limit - p.adaptation;
   if (!(c.project && c.shift > 0 && room > 0) || p.model == Model::safko2019) return std::nullopt;
   for (int attempt = 0; attempt < 8; ++attempt) {
     const double high = room / p.white_luminance;
@@ -201,7 +201,7 @@ Rgb draw_rgb(Regime regime, const OperatorConstants& c, Random& random) {
     }
     case Regime::luminance_zero: {
       rgb[any] = -rgb[any];
-      const double rest = (photopic_luminance * random.uniform(0.99, 1.01) - c.parameters.adaptation) / unit;
+      const double rest = (photopic_limit * random.uniform(0.99, 1.01) - c.parameters.adaptation) / unit;
       if (rest > 0 && random.chance(0.3)) {  // of large numbers, about as much as decides whether rods see
         const double scale = rest * random.log_uniform(1e2, 1e7) / std::abs(rgb[any]);
         for (auto& x : rgb) x *= scale;

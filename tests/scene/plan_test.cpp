@@ -24,12 +24,12 @@ struct Scene {
   }
 };
 
-PlanRequest at(double adaptation) {
-  PlanRequest request;
-  request.parameters.adaptation = adaptation;
-  request.parameters.white_luminance = adaptation / 0.18;
-  request.parameters.xyz_from_rgb = test::rec709;
-  request.parameters.xyz_from_gamut = test::rec709;
+AppearanceParameters at(double adaptation) {
+  AppearanceParameters request;
+  request.adaptation = adaptation;
+  request.white_luminance = adaptation / 0.18;
+  request.xyz_from_rgb = test::rec709;
+  request.xyz_from_gamut = test::rec709;
   return request;
 }
 
@@ -50,8 +50,8 @@ TEST(Plan, effects_end_at_five_candelas) {
 }
 
 TEST(Plan, the_thesis_pipeline_is_never_skipped) {
-  PlanRequest request = at(1000);
-  request.parameters.model = Model::safko2019;
+  AppearanceParameters request = at(1000);
+  request.model = Model::safko2019;
   const ScenePlan plan = plan_scene(request, nullptr);
   EXPECT_TRUE(plan.effect("shift").runs());
   EXPECT_FALSE(plan.effect("luminance").runs());
@@ -59,34 +59,34 @@ TEST(Plan, the_thesis_pipeline_is_never_skipped) {
 }
 
 TEST(Plan, the_thesis_pipeline_is_off_when_it_is_not_asked_for) {
-  PlanRequest request = at(0.01);
-  request.parameters.model = Model::safko2019;
-  request.parameters.strength.shift = 0;
+  AppearanceParameters request = at(0.01);
+  request.model = Model::safko2019;
+  request.strength.shift = 0;
   EXPECT_TRUE(plan_scene(request, nullptr).nothing());
 }
 
 TEST(Plan, a_dark_adapted_eye_that_sees_only_bright_pixels_needs_nothing) {
-  PlanRequest request = at(0.01);
-  request.parameters.white_luminance = 10;
+  AppearanceParameters request = at(0.01);
+  request.white_luminance = 10;
   Scene bright{{1, 2}, {1, 2}, {1, 0.8f}};
-  const SceneStatistics s = bright.measured(request.parameters);
+  const SceneStatistics s = bright.measured(request);
   EXPECT_TRUE(plan_scene(request, &s).nothing());
-  request.parameters.weight = Weight::global;
+  request.weight = Weight::global;
   EXPECT_FALSE(plan_scene(request, &s).nothing());
 }
 
 TEST(Plan, share_is_that_of_pixels_below_the_limit) {
-  PlanRequest request = at(0.01);
-  request.parameters.white_luminance = 10;
+  AppearanceParameters request = at(0.01);
+  request.white_luminance = 10;
   Scene half{{1, 1, 0.01f, 0.01f}, {1, 1, 0.01f, 0.01f}, {1, 1, 0.01f, 0.01f}};
-  const SceneStatistics s = half.measured(request.parameters);
+  const SceneStatistics s = half.measured(request);
   EXPECT_EQ(plan_scene(request, &s).effect("shift").share, 0.5);
 }
 
 TEST(Plan, a_grey_scene_keeps_photopic_luminance) {
-  PlanRequest request = at(0.01);
+  AppearanceParameters request = at(0.01);
   Scene grey{{0.1f, 0.5f}, {0.1f, 0.5f}, {0.1f, 0.5f}};
-  const SceneStatistics s = grey.measured(request.parameters);
+  const SceneStatistics s = grey.measured(request);
   const ScenePlan plan = plan_scene(request, &s);
   EXPECT_FALSE(plan.effect("luminance").needed);
   EXPECT_EQ(plan.parameters.luminance, LuminancePolicy::photopic);
@@ -101,7 +101,7 @@ TEST(Plan, what_is_skipped_would_not_have_been_seen) {
   std::uniform_real_distribution<double> uniform;
   for (const double la : {4.999, 1.0, 0.1, 0.01, 0.001, 1e-4})
     for (const double tint : {0.0, 1e-3, 3e-3, 0.01, 0.02, 0.05}) {
-      PlanRequest request = at(la);
+      AppearanceParameters request = at(la);
       Scene scene;
       for (int i = 0; i < 200; ++i) {
         const double v = std::exp2(-10 * uniform(random));
@@ -109,10 +109,10 @@ TEST(Plan, what_is_skipped_would_not_have_been_seen) {
         scene.g.push_back(static_cast<float>(v));
         scene.b.push_back(static_cast<float>(v * (1 + tint * (uniform(random) - 0.5))));
       }
-      const SceneStatistics s = scene.measured(request.parameters);
+      const SceneStatistics s = scene.measured(request);
       const ScenePlan plan = plan_scene(request, &s);
       ++(plan.effect("luminance").needed ? kept : skipped);
-      const AppearanceReference all(request.parameters), planned(plan.parameters);
+      const AppearanceReference all(request), planned(plan.parameters);
       for (std::size_t i = 0; i < scene.r.size(); ++i) {
         const ReferencePixel pixel{{scene.r[i], scene.g[i], scene.b[i]}, {}, {}};
         worst = std::max(worst, exposed_difference(test::rec709 * all(pixel), test::rec709 * planned(pixel)));
@@ -126,41 +126,28 @@ TEST(Plan, what_is_skipped_would_not_have_been_seen) {
 
 TEST(Plan, five_percent_of_sp_ratio_would_have_been_seen) {
   // Why sp_tolerance is not .05: a colour of S/P 5 % off white's, mesopic against photopic luminance.
-  PlanRequest request = at(0.001);
-  auto photopic = request.parameters;
+  AppearanceParameters request = at(0.001);
+  auto photopic = request;
   photopic.luminance = LuminancePolicy::photopic;
   const ReferencePixel pixel{{0.1, 0.1, 0.1088}, {}, {}};
-  const double difference = exposed_difference(test::rec709 * AppearanceReference(request.parameters)(pixel),
+  const double difference = exposed_difference(test::rec709 * AppearanceReference(request)(pixel),
                                                test::rec709 * AppearanceReference(photopic)(pixel));
   std::printf("dE00 of a skipped 5 %%: %.3g\n", difference);
   EXPECT_GT(difference, 0.5);
 }
 
-TEST(Plan, acuity_is_limiting_only_where_the_picture_holds_more_than_the_eye_resolves) {
-  PlanRequest request = at(0.01);
-  request.acuity = true;
-  const double cutoff = acuity_cutoff(0.01);
-  request.pixels_per_degree = 2 * cutoff * 0.999;
-  EXPECT_FALSE(plan_scene(request, nullptr).acuity);
-  request.pixels_per_degree = 2 * cutoff * 1.001;
-  EXPECT_TRUE(plan_scene(request, nullptr).acuity);
-  request.acuity = false;
-  EXPECT_FALSE(plan_scene(request, nullptr).acuity);
-}
-
-TEST(Plan, what_the_user_switched_off_stays_off_and_what_cannot_be_done_says_so) {
-  PlanRequest request = at(0.01);
-  request.parameters.strength.chroma = 0;
+TEST(Plan, what_the_user_switched_off_stays_off) {
+  AppearanceParameters request = at(0.01);
+  request.strength.chroma = 0;
   const ScenePlan plan = plan_scene(request, nullptr);
   EXPECT_FALSE(plan.effect("chroma").runs());
   EXPECT_TRUE(plan.effect("chroma").needed);
-  for (const char* effect : {"glare", "noise", "time"}) EXPECT_EQ(plan.effect(effect).reason, "not simulated");
 }
 
 TEST(Plan, differences_name_the_effect_that_makes_them) {
-  PlanRequest request = at(0.01);
+  AppearanceParameters request = at(0.01);
   Scene colours{{0.3f, 0.05f}, {0.05f, 0.05f}, {0.02f, 0.4f}};
-  const SceneStatistics s = colours.measured(request.parameters);
+  const SceneStatistics s = colours.measured(request);
   const ScenePlan plan = plan_scene(request, &s);
   for (const char* effect : {"shift", "luminance", "chroma"}) EXPECT_GT(plan.effect(effect).difference, 1) << effect;
 }

@@ -29,9 +29,12 @@ std::vector<double> adaptations_of(const BakeOptions& o) {
 
 OperatorChoice operator_choice(const OperatorOptions& o) {
   const OperatorChoice out = understand(o);
-  if (out.acuity == EffectWish::yes)
-    fail_value("--effects", o.effects,
-               "shift, luminance and chroma: acuity needs a pixel's neighbours, which no LUT sees");
+  for (const StageEntry& entry : out.stages.table()) {
+    const StageDescription& stage = *entry.description;
+    if (stage.not_in_a_look.empty() || out.stages.wish(stage.name) != EffectWish::yes) continue;
+    fail_value("--effects", o.stages.effects,
+               fmt::format("for a look: {}: {}", stage.name, stage.not_in_a_look));
+  }
   return out;
 }
 

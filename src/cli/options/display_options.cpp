@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "cli/options/values.h"
+#include "pipeline/stages/display_stages.h"
 
 namespace scotopic {
 namespace {
@@ -37,17 +38,18 @@ std::string first_given(const std::vector<Given>& options) {
 }
 
 /// Options of a stage that does not run.
-void refuse_idle_options(const DisplayOptions& o, DisplayChoice& choice, const ImageRequest& request) {
+void refuse_idle_options(const DisplayOptions& o, const StageValues& stages, DisplayChoice& choice,
+                         const ImageRequest& request) {
   const DisplayOptions usual;
   const std::string of_tone = first_given({{"--contrast", o.contrast != usual.contrast},
                                            {"--night-range", o.night_range != usual.night_range},
                                            {"--night-exponent", o.night_exponent != usual.night_exponent},
                                            {"--display-range", o.range != usual.range}});
   if (!choice.tone && !of_tone.empty()) refuse(of_tone, "the tone map: --tone local");
-  choice.of_night = first_given({{"--visibility", o.visibility != usual.visibility},
-                                 {"--viewing-adaptation", o.viewing != usual.viewing},
-                                 {"--strength-display", o.strength != usual.strength},
-                                 {"--peak", o.peak != usual.peak && !choice.tone}});
+  choice.of_night = first_given({{"--visibility", stages.given("visibility")},
+                                 {"--viewing-adaptation", stages.given("viewing-adaptation")},
+                                 {"--strength-display", stages.given("strength-display")},
+                                 {"--peak", stages.given("peak") && !choice.tone}});
   if (request.night == NightDisplayMode::never && !choice.of_night.empty())
     refuse(choice.of_night, "the display stage: --display night");
 }
@@ -76,12 +78,8 @@ void add_display_options(CLI::App& verb, DisplayOptions& o) {
       "night[:DISPLAY]: as dark as the eye sees it (default for PNG, JPEG and TIFF of whole numbers); none: values alone "
       "(default for the rest); or a view of the config, as it is",
       "WHAT");
-  add("--visibility", o.visibility, "What just visible means: hdrvdp2 (default) or ward1997", "RULE");
-  add("--viewing-adaptation", o.viewing, "What eyes at the display are adapted to (default 18)", "CDM2");
-  add("--strength-display", o.strength, "How much of the dimming is shown (default 1)", "X");
   add("--tone", o.tone, "local: the literature's bilateral tone map in place of the display stage", "NAME");
   add("--contrast", o.contrast, "Span of large shapes on a display of 100 cd/m2 (default 5)", "X");
-  add("--peak", o.peak, "Greatest luminance of the display (default 100)", "CDM2");
   add("--night-range", o.night_range, "Share of that left to what rods alone see (default 0.35; 1: all)",
       "X");
   add("--night-exponent", o.night_exponent,
@@ -90,7 +88,7 @@ void add_display_options(CLI::App& verb, DisplayOptions& o) {
       "Scene luminances of large shapes to be spanned: auto, or LOW,HIGH in cd/m2", "RANGE");
 }
 
-DisplayChoice understand(const DisplayOptions& o, ImageRequest& request) {
+DisplayChoice understand(const DisplayOptions& o, const StageValues& stages, ImageRequest& request) {
   DisplayChoice out;
   set_display(o.display, request);
   if ((request.view || request.night == NightDisplayMode::always) && request.output_colourspace)
@@ -99,18 +97,14 @@ DisplayChoice understand(const DisplayOptions& o, ImageRequest& request) {
   if (out.tone && request.night == NightDisplayMode::always)
     throw Error(ExitCode::usage, "", "either --display night or --tone local, not both");
   if (out.tone) request.night = NightDisplayMode::never;
-  out.night.rule = choice<VisibilityRule>(
-      "--visibility", o.visibility, {{"hdrvdp2", VisibilityRule::hdrvdp2}, {"ward1997", VisibilityRule::ward1997}});
-  out.night.viewing = number_in("--viewing-adaptation", o.viewing, 1e-3, 1e5, "a luminance in cd/m2, 0.001 to 1e5");
-  out.night.strength = number_in("--strength-display", o.strength, 0, 1, "a share from 0 to 1");
+  out.night = night_parameters(stages);
   DisplayParameters& p = out.parameters;
   p.contrast = number_in("--contrast", o.contrast, 1, 1e6, "a ratio of luminances, 1 to 1e6");
-  p.peak = number_in("--peak", o.peak, 1, 1e5, "a luminance in cd/m2, 1 to 1e5");
+  p.peak = out.night.peak;
   p.night_range = number_in("--night-range", o.night_range, 0, 1, "a share from 0 to 1");
   p.night_exponent = number_in("--night-exponent", o.night_exponent, 0.01, 100, "a power, 0.01 to 100");
   if (o.range != "auto") out.range = parse_range(o.range);
-  out.night.peak = p.peak;
-  refuse_idle_options(o, out, request);
+  refuse_idle_options(o, stages, out, request);
   return out;
 }
 

@@ -12,11 +12,7 @@ namespace scotopic {
 struct DisplayOptions {
   std::string display;
   std::string tone;
-  std::string visibility = "hdrvdp2";
-  std::string viewing = "18";
-  std::string strength = "1";
   std::string contrast = "5";
-  std::string peak = "100";
   std::string night_range = "0.35";
   std::string night_exponent = "1";
   std::string range = "auto";
@@ -26,6 +22,6 @@ void add_display_options(CLI::App& verb, DisplayOptions& options);
 
 /// Error(usage) for a value that is not understood, and for options of a stage that does not run. Sets the view of
 /// `request`, and whether the display stage runs.
-DisplayChoice understand(const DisplayOptions& options, ImageRequest& request);
+DisplayChoice understand(const DisplayOptions& options, const StageValues& stages, ImageRequest& request);
 
 }  // namespace scotopic

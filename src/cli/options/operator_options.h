@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cli/options/spectral_options.h"
+#include "cli/scene/stage_options.h"
 #include "pipeline/settings.h"
 
 namespace scotopic {
@@ -15,11 +16,8 @@ struct OperatorOptions {
   std::string white_luminance;
   std::string model = "filament2021";
   std::string safko_scale;
-  std::string effects = "auto";
   std::string strength = "1";
-  std::string strength_shift = "1";
-  std::string strength_luminance = "1";
-  std::string strength_chroma = "1";
+  StageOptions stages;
   std::string weight = "local";
   std::string luminance = "mesopic";
   std::string gamut = "working";
@@ -27,13 +25,14 @@ struct OperatorOptions {
   std::string rods = "linear";
 };
 
-void add_operator_options(CLI::App& verb, OperatorOptions& options);
+/// With the options of the stages that the verb has.
+void add_operator_options(CLI::App& verb, OperatorOptions& options, StagesShown shown = StagesShown::fused);
 
 /// Error(usage) for the first value that is not understood. Looks at nothing but the text, and an
 /// illuminant.s file.
 OperatorChoice understand(const OperatorOptions& options);
 
 /// What was asked for and the model has not got: "--strength, --gamut"; empty where there is nothing of the kind.
-std::string without_effect(const OperatorOptions& options, const AppearanceParameters& parameters);
+std::string without_effect(const OperatorOptions& options, const OperatorChoice& choice);
 
 }  // namespace scotopic

@@ -39,20 +39,19 @@ std::string bar(double share, double greatest, int width) {
 }
 
 std::string_view verdict(const EffectDecision& d) {
-  if (!d.simulated) return "-";
   if (!d.asked) return "off";
   return d.needed ? "yes" : "no";
 }
 
 }  // namespace
 
-std::vector<double> measure_costs(const PlanRequest& asked, const ScenePlan& plan, const SceneStatistics& s) {
+std::vector<double> measure_costs(const AppearanceParameters& asked, const ScenePlan& plan, const SceneStatistics& s) {
   std::vector<double> costs(plan.effects.size());
   if (s.samples.size() < 3 * 256) return costs;
-  const double whole = time_of(asked.parameters, s);
+  const double whole = time_of(asked, s);
   for (std::size_t i = 0; i < plan.effects.size(); ++i) {
     const EffectDecision& d = plan.effects[i];
-    AppearanceParameters without = asked.parameters;
+    AppearanceParameters without = asked;
     if (d.effect == "shift") without.strength.shift = 0;
     else if (d.effect == "luminance") without.luminance = LuminancePolicy::none;
     else if (d.effect == "chroma") without.strength.chroma = 0;
@@ -95,7 +94,7 @@ std::string effects_text(const ScenePlan& plan, const std::vector<double>& costs
   std::string text = "effect     needed  pixels  dE00 max  ns/px  why\n";
   for (std::size_t i = 0; i < plan.effects.size(); ++i) {
     const EffectDecision& d = plan.effects[i];
-    const auto number = [&](bool shown, const std::string& value) { return d.simulated && shown ? value : std::string("-"); };
+    const auto number = [&](bool shown, const std::string& value) { return shown ? value : std::string("-"); };
     text += fmt::format("{:<10} {:<7} {:>6} {:>9} {:>6}  {}\n", d.effect, verdict(d),
                         number(true, fmt::format("{:.0f} %", 100 * d.share)),
                         number(d.difference > 0, fmt::format("{:.3g}", d.difference)),

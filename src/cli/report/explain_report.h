@@ -11,7 +11,7 @@ namespace scotopic {
 
 /// Nanoseconds per pixel that each effect of the plan adds on this machine, one thread, measured on the scene's
 /// samples; in the plan's order. 0 where nothing would run, or where there are too few samples to time.
-std::vector<double> measure_costs(const PlanRequest& asked, const ScenePlan& plan, const SceneStatistics& statistics);
+std::vector<double> measure_costs(const AppearanceParameters& asked, const ScenePlan& plan, const SceneStatistics& statistics);
 
 /// One bar of the luminance histogram: from cd/m2 up to twice that.
 struct LuminanceBar {

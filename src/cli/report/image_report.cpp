@@ -49,7 +49,7 @@ nlohmann::ordered_json plan_json(const ScenePlan& plan) {
   nlohmann::ordered_json out;
   for (const EffectDecision& e : plan.effects)
     out[std::string(e.effect)] = {
-        {"simulated", e.simulated}, {"asked", e.asked},   {"needed", e.needed},
+        {"asked", e.asked},         {"needed", e.needed},
         {"runs", e.runs()},         {"number", e.number}, {"threshold", e.threshold},
         {"unit", e.unit},           {"share", e.share},   {"largestDifference", e.difference},
         {"reason", e.reason}};

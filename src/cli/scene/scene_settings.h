@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cli/console.h"
-#include "cli/options/acuity_options.h"
+#include "cli/options/viewing_options.h"
 #include "cli/options/image_options.h"
 #include "cli/options/operator_options.h"
 #include "cli/options/spectral_options.h"
@@ -14,11 +14,15 @@ namespace scotopic {
 struct SceneOptions {
   OperatorOptions appearance;
   BandOptions bands;
-  AcuityOptions acuity;
+  ViewingOptions viewing;
+  std::string history;  ///< --adaptation-history
   ImageOptions image;
 };
 
-/// With the colour config in force. Faults are told in the order of the options' groups.
+/// All that both verbs have but an image's own.
+void add_scene_options(CLI::App& verb, SceneOptions& options);
+
+/// With the colour config in force; add_stages() is still to be called. Faults are told in the order of the options' groups.
 ImageSettings understand(const SceneOptions& options);
 
 }  // namespace scotopic

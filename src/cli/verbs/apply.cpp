@@ -10,11 +10,9 @@
 #include "cli/scene/scene_settings.h"
 #include "cli/sequence/shot.h"
 #include "cli/options/values.h"
-#include "cli/scene/glare_options.h"
 #include "cli/scene/precision_options.h"
 #include "pipeline/run.h"
 #include "pipeline/stages/display_stages.h"
-#include "pipeline/stages/glare_stage.h"
 
 namespace scotopic {
 namespace {
@@ -26,7 +24,6 @@ struct ApplyOptions {
   std::string adaptation_from;
   PrecisionOptions precision;
   DisplayOptions display;
-  GlareOptions glare;
   IccOptions icc;
   std::string non_finite = "keep";
   FrameOptions frames;
@@ -58,22 +55,22 @@ class ApplyJob : public FrameJob {
 ImageSettings settings_of(const ApplyOptions& o) {
   const NonFinite non_finite = non_finite_policy(o.non_finite);
   ImageRequest request = understand(o.scene.image);
-  DisplayChoice display = understand(o.display, request);
-  const GlareChoice glare = understand(o.glare);
-  understand(o.icc, request);
   ImageSettings out = understand(o.scene);
+  DisplayChoice display = understand(o.display, out.choice.stages, request);
+  understand(o.icc, request);
   if (request.view) out.config = out.config.holding(*request.view);
   out.request = std::move(request);
   out.display = std::move(display);
   out.non_finite = non_finite;
-  out.frame_stages = {glare_stage(glare, out.choice.glare, out.display.night)};
+  out.sequence = !o.frames.frames.empty();
+  add_stages(out);
   return out;
 }
 
 ApplyJob::ApplyJob(const ApplyOptions& o, const Console& console)
     : evaluators_(understand(o.precision)), settings_(settings_of(o)) {
   check_view(settings_.request, settings_.config, console.notes());
-  if (const std::string idle = without_effect(o.scene.appearance, settings_.choice.parameters); !idle.empty())
+  if (const std::string idle = without_effect(o.scene.appearance, settings_.choice); !idle.empty())
     console.note("without effect under --model safko2019: " + idle);
 }
 
@@ -120,14 +117,12 @@ void add_apply(CLI::App& program, Invocation& invocation) {
       ->required()
       ->type_name("OUT");
   SceneOptions& scene = options->scene;
-  add_operator_options(verb, scene.appearance);
+  add_scene_options(verb, scene);
   add_shot_options(verb, options->adaptation_from);
   add_frame_options(verb, options->frames);
   add_precision_options(verb, options->precision);
   add_band_options(verb, scene.bands);
-  add_acuity_options(verb, scene.acuity);
   add_display_options(verb, options->display);
-  add_glare_options(verb, options->glare);
   verb.add_option("--nonfinite", options->non_finite, "NaN and infinite pixels: keep, clean (to 0), or error")
       ->type_name("WHAT");
   add_input_options(verb, scene.image);

@@ -111,7 +111,7 @@ int run_explain_image(const ExplainOptions& options, const ImageSettings& settin
   const SceneReport scene = read_scene(job, settings, Statistics::of_all_pixels, console.notes());
   const SceneStatistics& statistics = *scene.statistics;
   const SceneNumbers& numbers = scene.numbers;
-  const std::vector<double> costs = measure_costs(scene.request, scene.plan, statistics);
+  const std::vector<double> costs = measure_costs(scene.asked, scene.plan, statistics);
   const LightNumbers light = light_of(statistics, numbers);
   if (plot) write_text(*plot, luminance_svg(statistics, numbers.white_luminance, numbers.adaptation));
   if (!console.json()) print(light, numbers, statistics, scene.plan, costs);
@@ -136,7 +136,9 @@ int run_explain(const ExplainOptions& options) {
   if (options.input.empty()) throw Error(ExitCode::usage, "", "IN is required: an image, or an OCIO config");
   if (is_config(options.input)) return run_explain_config(options, console);
   const std::vector<Frame> frames = frames_of(options.frames, options.input, "");
-  const ImageSettings settings = understand(options.scene);
+  ImageSettings settings = understand(options.scene);
+  settings.sequence = frames.front().number.has_value();
+  add_stages(settings);
   set_threads(options.common.threads);
   check_places(frames, options.frames);
   std::optional<OutputFile> plot;
@@ -157,10 +159,9 @@ void add_explain(CLI::App& program, Invocation& invocation) {
   verb.add_option("input", options->input, "As for apply; or an OCIO config (.ocio): what its looks do")
       ->type_name("IN|CONFIG");
   verb.add_flag("--adaptations", options->adaptations, "List the names that --adaptation takes");
-  add_operator_options(verb, options->scene.appearance);
+  add_scene_options(verb, options->scene);
   add_reading_frame_options(verb, options->frames);
   add_band_options(verb, options->scene.bands);
-  add_acuity_options(verb, options->scene.acuity);
   add_input_options(verb, options->scene.image);
   verb.add_option("--plot", options->plot, "The luminance histogram, or a sequence's adaptation, as an SVG file")
       ->type_name("FILE");

@@ -24,7 +24,7 @@ std::string joined(const std::vector<std::string>& words) {
 std::vector<std::string> running(const ScenePlan& plan) {
   std::vector<std::string> effects;
   for (const EffectDecision& d : plan.effects)
-    if (d.simulated && d.asked && d.runs()) effects.emplace_back(d.effect);
+    if (d.runs()) effects.emplace_back(d.effect);
   return effects;
 }
 

@@ -1,6 +1,6 @@
 #include "looks/lut/ladder.h"
 
-#include "stages/table.h"
+#include "stages/limits.h"
 #include "looks/lut/look_chain.h"
 #include "looks/lut/look_matrix.h"
 #include "looks/chain/number_text.h"
@@ -36,7 +36,7 @@ std::string night_file_stem(const LookSpec& spec) {
 }
 
 std::string look_name(const AppearanceParameters& p) {
-  const bool photopic = p.model != Model::safko2019 && !(p.adaptation < photopic_luminance);
+  const bool photopic = p.model != Model::safko2019 && !(p.adaptation < photopic_limit);
   std::string name = (photopic ? "Photopic " : "Mesopic ") + adaptation_name(p.adaptation);
   if (p.model != Model::filament2021) name += " " + std::string(name_of(p.model));
   return name;

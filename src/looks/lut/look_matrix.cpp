@@ -19,9 +19,7 @@ Matrix3<double> chroma_matrix(const AppearanceParameters& p) {
 }  // namespace
 
 std::optional<Matrix3<double>> look_matrix(const AppearanceParameters& p) {
-  PlanRequest request;
-  request.parameters = p;
-  const ScenePlan plan = plan_scene(request, nullptr);
+  const ScenePlan plan = plan_scene(p, nullptr);
   if (plan.nothing()) return identity3<double>();
   const bool chroma_alone = !plan.effect("shift").runs() && !plan.effect("luminance").runs();
   if (!chroma_alone || p.weight == Weight::local) return std::nullopt;

@@ -9,7 +9,7 @@
 #include "batch/batch.h"
 #include "stages/shared/colour_difference.h"
 #include "stages/reference.h"
-#include "stages/table.h"
+#include "stages/limits.h"
 #include "looks/lut/look_chain.h"
 #include "looks/chain/ocio_chain.h"
 #include "base/error.h"
@@ -35,7 +35,7 @@ class Untouched {
     constexpr auto limit = static_cast<float>(operable_limit);
     const bool operable = std::abs(r) <= limit && std::abs(g) <= limit && std::abs(b) <= limit;
     const float y = y_[0] * r + y_[1] * g + y_[2] * b;
-    const bool dim = adaptation_ + std::max(0.0f, unit_ * y) < static_cast<float>(photopic_luminance);
+    const bool dim = adaptation_ + std::max(0.0f, unit_ * y) < static_cast<float>(photopic_limit);
     return !(operable && (dim || never_photopic_));
   }
 

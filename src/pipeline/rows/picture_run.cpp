@@ -60,6 +60,11 @@ void pass_on(std::deque<AcuityRows>& filters, std::size_t at,
   }
 }
 
+bool asks_for_scene(const ImageStages& stages) {
+  return std::any_of(stages.after.begin(), stages.after.end(),
+                     [](const RowStage* stage) { return stage->asks_for_scene(); });
+}
+
 const LightPlanes* frame_of(const ImageStages& stages, const ImageLayout& layout, const LightPicture& light) {
   return stages.frames ? stages.frames->of(static_cast<std::size_t>(&light - layout.light.data())) : nullptr;
 }
@@ -83,21 +88,24 @@ PictureRun::PictureRun(const PixelSource& source, const ImageLayout& layout, con
   const bool same_alpha =
       !light_.channels.alpha || source_picture_.unassociated_alpha == out.picture.unassociated_alpha;
   writer_.keep_untouched = !out.new_space && writer_.gain == 1 && same_alpha;
-  const bool asks = std::any_of(stages.after.begin(), stages.after.end(),
-                                [](const RowStage* stage) { return stage->asks_for_planes(); });
-  if (asks) keeper_.emplace(stages.scene.value());
+  whole_rows_ = asks_for_scene(stages);
+}
+
+PictureRun::Room::Room(std::size_t width, const ImageStages& stages)
+    : light(width), scene(asks_for_scene(stages) ? width : 0) {
+  for (const RowStage* stage : stages.after) memory.push_back(stage->memory());
 }
 
 void PictureRun::run(const Band& in, Band& out, bool interleaved) const {
   allocate(in, out, interleaved);
   // Receptors' signals have no columns of their own to take pieces of.
-  if (reader_.receptors())
+  if (reader_.receptors() || whole_rows_)
     return each_row(in, [&](int row, Room& room) { run_piece(in, 0, row, room, out); });
   const std::vector<Band> from = pieces(in), to = pieces(out);
   parallel_rows(in.rows, 8, [&](int first, int last) {
     // All pieces are of one width, but for the last.
-    Room usual(static_cast<std::size_t>(from.front().width), keeper_.has_value());
-    Room rest(static_cast<std::size_t>(from.back().width), keeper_.has_value());
+    Room usual(static_cast<std::size_t>(from.front().width), stages_);
+    Room rest(static_cast<std::size_t>(from.back().width), stages_);
     for (int row = first; row < last; ++row)
       for (std::size_t i = 0; i < from.size(); ++i)
         run_piece(from[i], static_cast<int>(i) * piece_width, row, i + 1 < from.size() ? usual : rest, to[i]);
@@ -139,7 +147,7 @@ std::deque<AcuityRows> PictureRun::filter_rows(bool descending, bool keep_alpha)
 
 void PictureRun::each_row(const Band& band, const std::function<void(int row, Room& room)>& work) const {
   parallel_rows(band.rows, 8, [&](int first, int last) {
-    Room room(static_cast<std::size_t>(band.width), keeper_.has_value());
+    Room room(static_cast<std::size_t>(band.width), stages_);
     for (int row = first; row < last; ++row) work(row, room);
   });
 }
@@ -207,15 +215,15 @@ void PictureRun::see_row(const Band& in, int x, int row, LightRow& light) const 
 // The stages after those that look around.
 void PictureRun::show_row(const Band& in, int x, int row, Room& room) const {
   const Window& d = source_picture_.display;
-  const RowContext at = {source_picture_.data.x0 + x, in.y0 + row, d.x0, d.y0, d.x1, d.y1, stages_.moment};
-  KeptPlanes kept;
-  if (keeper_) {
-    (void)read_light(in, x, row, room.seen, nullptr);
-    kept = keeper_->planes(room.seen, reader_.receptors(), room.rod, room.local);
+  RowSight sight;
+  sight.at = {source_picture_.data.x0 + x, in.y0 + row, d.x0, d.y0, d.x1, d.y1, stages_.moment};
+  if (whole_rows_) (void)read_light(in, x, row, room.scene, nullptr);
+  for (std::size_t i = 0; i < stages_.after.size(); ++i) {
+    const RowStage& stage = *stages_.after[i];
+    sight.scene = stage.asks_for_scene() ? room.scene.pixels(reader_.receptors()) : PixelRows();
+    sight.memory = room.memory[i].get();
+    stage.apply(room.light.pixels(false), sight, room.light.touched.data());
   }
-  for (const RowStage* stage : stages_.after)
-    stage->apply(room.light.pixels(false), at, stage->asks_for_planes() ? kept : KeptPlanes{},
-                 room.light.touched.data());
 }
 
 void PictureRun::write_row(const Band& in, int x, int row, Room& room, const Band& out) const {

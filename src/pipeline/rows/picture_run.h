@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "pipeline/apply_image.h"
 #include "pipeline/rows/acuity_rows.h"
-#include "pipeline/rows/kept_planes.h"
 #include "pipeline/rows/light_path.h"
 
 namespace scotopic {
@@ -41,10 +41,10 @@ class PictureRun {
  private:
   /// Room for one row at work.
   struct Room {
-    Room(std::size_t width, bool keeps) : light(width), seen(keeps ? width : 0) {}
+    Room(std::size_t width, const ImageStages& stages);
     LightRow light;
-    LightRow seen;  ///< as the operator saw it; only for stages that ask for planes
-    std::vector<float> rod, local;
+    LightRow scene;  ///< as the pixel stages saw it; only for stages that ask
+    std::vector<std::unique_ptr<RowMemory>> memory;  ///< of each of the stages after the filters
   };
 
   void each_row(const Band& band, const std::function<void(int row, Room& room)>& work) const;
@@ -70,7 +70,7 @@ class PictureRun {
   const LightPlanes* frame_ = nullptr;
   LightReader reader_;
   LightWriter writer_;
-  std::optional<PlaneKeeper> keeper_;
+  bool whole_rows_ = false;  // for stages after the filters that look at the scene
   std::vector<std::size_t> others_;  // channel of the source for each output channel after R, G, B
   mutable NonFiniteTally tally_;
 };

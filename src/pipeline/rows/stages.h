@@ -5,15 +5,18 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "adaptation/dark_adaptation.h"
 #include "batch/batch.h"
 #include "io/picture.h"
+#include "pipeline/notes.h"
 #include "scene/plan.h"
+#include "stages/acuity/filter.h"
 #include "stages/shared/parallel_for.h"
 #include "stages/shared/parameters.h"
 #include "stages/shared/row_context.h"
@@ -28,12 +31,36 @@ struct AngularResolution {
   double pixel_aspect = 1;  ///< width over height of a pixel; the above is across
 };
 
+/// Where an eye stands that is still adapting, and what follows from it.
+struct AdaptationTrace {
+  AdaptationState state;
+  AdaptationThresholds thresholds;
+};
+
 /// What a stage may know of the scene. Of a frame stage: adaptation and unit as given, or as metered on the
 /// picture before it; of a stage after the others, as they were used.
 struct StageScene {
   AppearanceParameters parameters;
   AngularResolution resolution;
   bool wraps = false;  ///< a panorama: its last column lies beside its first
+  bool sequence = false;                   ///< a frame of one
+  bool tracked = false;                    ///< whose adaptation changes from frame to frame
+  Precision precision = Precision::single; ///< of the pixel stages
+  /// Of an eye that is not adapted yet; nullopt: it is.
+  std::optional<AdaptationTrace> adapting;
+};
+
+/// A stage of an image, apart from its pixels.
+class SceneStage {
+ public:
+  virtual ~SceneStage() = default;
+  /// As options, plans and stamps have it.
+  virtual std::string_view name() const noexcept = 0;
+  /// Whether it was asked for, whether the scene calls for it, and why. Error(usage) where it cannot do what
+  /// was asked for by name.
+  virtual EffectDecision decide(const StageScene& scene) const = 0;
+  /// What an output that it has changed says of it.
+  virtual std::vector<Attribute> stamps(const StageScene& scene) const = 0;
 };
 
 /// A whole picture's light: linear working RGB, and receptor signals where the file brings its own.
@@ -66,29 +93,32 @@ struct FrameOutcome {
 
 /// A stage that needs the whole picture, as light that scatters in the eye does: before the pixel stages, in
 /// place. Immutable: any number of pictures at once. Smaller resolutions of a picture do not go through it.
-class FrameStage {
+class FrameStage : public SceneStage {
  public:
-  virtual ~FrameStage() = default;
-  /// As options, plans and stamps have it.
-  virtual std::string_view name() const noexcept = 0;
-  /// Whether it was asked for, with the reason if not; decided without a pixel, when adaptation and unit are
-  /// not known yet. Error(usage) where it cannot do what was asked for by name.
-  virtual EffectDecision asked(const StageScene& scene) const = 0;
+  /// Without a pixel, when adaptation and unit are not known yet: what the scene calls for is for run() to say.
+  EffectDecision decide(const StageScene& scene) const override = 0;
   /// What run() allocates at most, the planes not counted.
   virtual std::int64_t bytes(const FrameSize& size, const StageScene& scene) const = 0;
   /// Changes `light`, if the scene calls for it. The result depends on no number of threads.
   virtual FrameOutcome run(const FramePlanes& light, const StageScene& scene,
                            const ParallelFor& parallel_for) const = 0;
-  /// What an output that it has changed says of it.
-  virtual std::vector<Attribute> stamps(const StageScene& scene) const = 0;
 };
 
 using FrameStages = std::vector<std::shared_ptr<const FrameStage>>;
 
-/// What the pixel stages saw of a row, kept for a stage after them.
-struct KeptPlanes {
-  const float* rod = nullptr;              ///< rods' signal, luminance units per unit of the image
-  const float* local_luminance = nullptr;  ///< Lloc, cd/m2
+/// What a stage keeps from one row to the next, for itself.
+class RowMemory {
+ public:
+  virtual ~RowMemory() = default;
+};
+
+/// What a stage of rows may look at besides the light that it changes.
+struct RowSight {
+  RowContext at;
+  /// The row as the pixel stages saw it, receptors' signals included where the file has them; no pixels where
+  /// the stage does not ask.
+  PixelRows scene;
+  RowMemory* memory = nullptr;  ///< what memory() made for this thread: rows come whole, and downwards
 };
 
 /// A stage of single pixels. Immutable: any number of threads. Results must not depend on how pixels are
@@ -96,14 +126,29 @@ struct KeptPlanes {
 class RowStage {
  public:
   virtual ~RowStage() = default;
-  /// Whether it asks for KeptPlanes; they are null otherwise.
-  virtual bool asks_for_planes() const noexcept { return false; }
+  /// Whether it asks for RowSight::scene.
+  virtual bool asks_for_scene() const noexcept { return false; }
+  /// For a thread, where something is worth keeping.
+  virtual std::unique_ptr<RowMemory> memory() const { return nullptr; }
   /// In place. Sets touched[i] to 1 where pixel i changes and leaves it elsewhere.
-  virtual void apply(const PixelRows& rows, const RowContext& at, const KeptPlanes& kept,
-                     std::uint8_t* touched) const = 0;
+  virtual void apply(const PixelRows& rows, const RowSight& sight, std::uint8_t* touched) const = 0;
 };
 
-/// Makes a stage for an image whose scene is known; nullptr where it is not called for.
-using RowStageMaker = std::function<std::unique_ptr<const RowStage>(const StageScene& scene)>;
+/// A stage that looks at the pixels around each, after the pixel stages.
+class FilterStage : public SceneStage {
+ public:
+  /// For a scene that calls for it.
+  virtual std::unique_ptr<SpatialFilter> make(const StageScene& scene, const Notes& notes) const = 0;
+};
+
+/// A stage of single pixels after those.
+class PointStage : public SceneStage {
+ public:
+  /// For a scene that calls for it.
+  virtual std::unique_ptr<const RowStage> make(const StageScene& scene, const Notes& notes) const = 0;
+};
+
+using FilterStages = std::vector<std::shared_ptr<const FilterStage>>;
+using PointStages = std::vector<std::shared_ptr<const PointStage>>;
 
 }  // namespace scotopic

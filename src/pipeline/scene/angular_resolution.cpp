@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "stages/acuity/cutoff.h"
-#include "stages/acuity/local.h"
 
 namespace scotopic {
 namespace {
@@ -46,7 +45,7 @@ double pixels_per_degree_of_panorama(double width) { return width / 360; }
 
 namespace {
 
-AngularResolution resolution_across(const AcuityChoice& choice, const PixelSource& source,
+AngularResolution resolution_across(const ViewingChoice& choice, const PixelSource& source,
                                     const ImageLayout& layout) {
   if (choice.pixels_per_degree) return {*choice.pixels_per_degree, true, "--ppd"};
   const double width = display_width(source, layout);
@@ -64,32 +63,15 @@ AngularResolution resolution_across(const AcuityChoice& choice, const PixelSourc
 
 }  // namespace
 
-bool is_panorama(const AcuityChoice& choice, const PixelSource& source, const ImageLayout& layout) {
+bool is_panorama(const ViewingChoice& choice, const PixelSource& source, const ImageLayout& layout) {
   return choice.panorama.value_or(is_lat_long(source, layout));
 }
 
-AngularResolution angular_resolution(const AcuityChoice& choice, const PixelSource& source,
+AngularResolution angular_resolution(const ViewingChoice& choice, const PixelSource& source,
                                      const ImageLayout& layout) {
   AngularResolution out = resolution_across(choice, source, layout);
   out.pixel_aspect = source.pictures()[layout.light.front().index].pixel_aspect;
   return out;
-}
-
-std::unique_ptr<SpatialFilter> acuity_filter(const AcuityChoice& choice, const AppearanceParameters& scene,
-                                             const AngularResolution& resolution, const Notes& notes) {
-  AcuityParameters p = choice.parameters;
-  p.strength *= scene.strength.all;
-  const double ppd = resolution.pixels_per_degree, cutoff = acuity_cutoff(scene.adaptation);
-  const std::string known = fmt::format("{:.3g} pixels per degree ({})", ppd, resolution.source);
-  p.sigma = acuity_sigma_pixels(scene.adaptation, ppd);
-  p.pixel_aspect = resolution.pixel_aspect;
-  p.white = scene.adaptation / 0.18 / scene.white_luminance;
-  p.xyz_from_rgb = scene.xyz_from_rgb;
-  notes.note(fmt::format("acuity: {:.3g} cycles/degree are resolved, sigma {}{:.3g} pixels; {}", cutoff,
-                         choice.local ? "up to " : "", p.sigma, known));
-  if (!choice.local) return std::make_unique<AcuityFilter>(p);
-  return std::make_unique<LocalAcuityFilter>(
-      LocalAcuityParameters{p, scene.adaptation, scene.white_luminance, ppd});
 }
 
 }  // namespace scotopic

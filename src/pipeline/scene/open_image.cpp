@@ -84,7 +84,7 @@ OpenImage open_image(const ImageSettings& settings, const std::string& input, co
   OpenImage image;
   image.source = open_input(input, settings.spectral, settings.limits, notes);
   image.layout = plan_layout(*image.source, output, settings.config, settings.request);
-  image.layout.wraps = is_panorama(settings.acuity, *image.source, image.layout);
+  image.layout.wraps = is_panorama(settings.viewing, *image.source, image.layout);
   image.known = known_numbers(settings.choice, *image.source, image.layout, notes);
   return image;
 }
@@ -93,7 +93,7 @@ OpenImage open_to_read(const ImageSettings& settings, const std::string& input, 
   OpenImage image;
   image.source = open_input(input, settings.spectral, settings.limits, notes);
   image.layout = read_layout(*image.source, settings.config, settings.request);
-  image.layout.wraps = is_panorama(settings.acuity, *image.source, image.layout);
+  image.layout.wraps = is_panorama(settings.viewing, *image.source, image.layout);
   image.known = known_numbers(settings.choice, *image.source, image.layout, notes);
   return image;
 }

@@ -4,44 +4,42 @@
 
 namespace scotopic {
 
-PlanRequest plan_request(const OperatorChoice& choice, const AppearanceParameters& scene,
-                         const AcuityChoice& acuity, const AngularResolution& resolution) {
-  PlanRequest request;
-  request.parameters = scene;
-  request.acuity = acuity.asked || choice.acuity == EffectWish::yes ||
-                   (choice.acuity == EffectWish::if_known && resolution.known);
-  if (acuity.parameters.strength * scene.strength.all == 0) request.acuity = false;
-  if (resolution.known || request.acuity) request.pixels_per_degree = resolution.pixels_per_degree;
-  return request;
+namespace {
+
+/// What is asked for runs, whatever the scene calls for; a frame stage looks at the picture first.
+void insist(EffectDecision& d) {
+  if (!d.asked || d.needed) return;
+  d.needed = true;
+  d.reason += "; applied all the same: --effects says so";
 }
 
-ScenePlan plan_of(const OperatorChoice& choice, const PlanRequest& request,
-                  const SceneStatistics* statistics) {
-  ScenePlan plan = plan_scene(request, statistics);
+}  // namespace
+
+ScenePlan plan_of(const OperatorChoice& choice, const AppearanceParameters& scene,
+                  const SceneStatistics* statistics, const std::vector<EffectDecision>& decided) {
+  ScenePlan plan = plan_scene(scene, statistics);
+  std::vector<EffectDecision> all = plan.effects;
+  all.insert(all.end(), decided.begin(), decided.end());
+  plan.effects.clear();
+  const StageTable table = choice.stages.table();
+  for (const StageEntry& entry : table)
+    for (const EffectDecision& d : all)
+      if (d.effect == entry.description->name) plan.effects.push_back(d);
+  for (const EffectDecision& d : all)
+    if (place_of(table, d.effect) == table.size()) plan.effects.push_back(d);
   if (choice.plan_effects) return plan;
-  plan.parameters = request.parameters;
-  plan.acuity = request.acuity;
-  for (EffectDecision& d : plan.effects)
-    if (d.asked && !d.needed) {
-      d.needed = true;
-      d.reason += "; applied all the same: --effects says so";
-    }
+  plan.parameters = scene;
+  for (EffectDecision& d : plan.effects) {
+    const std::size_t place = place_of(table, d.effect);
+    if (place == table.size() || table[place].description->support != StageSupport::frame) insist(d);
+  }
   return plan;
-}
-
-void set_decision(ScenePlan& plan, const EffectDecision& decision) {
-  const auto same = [&](const EffectDecision& d) { return d.effect == decision.effect; };
-  const auto found = std::find_if(plan.effects.begin(), plan.effects.end(), same);
-  if (found != plan.effects.end())
-    *found = decision;
-  else
-    plan.effects.push_back(decision);
 }
 
 std::string plan_line(const ScenePlan& plan) {
   std::string runs, skipped;
   for (const EffectDecision& d : plan.effects) {
-    if (!d.simulated || !d.asked) continue;
+    if (!d.asked) continue;
     if (d.runs())
       runs += (runs.empty() ? "" : ", ") + std::string(d.effect);
     else

@@ -2,26 +2,19 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "pipeline/scene/angular_resolution.h"
 #include "pipeline/settings.h"
 #include "scene/plan.h"
 
 namespace scotopic {
 
-/// What is asked for in a scene. Acuity is asked for by --acuity, by its name in --effects, or, with auto and
-/// all, by telling how many pixels a degree has.
-PlanRequest plan_request(const OperatorChoice& choice, const AppearanceParameters& scene,
-                         const AcuityChoice& acuity, const AngularResolution& resolution);
+/// With --effects auto what the scene calls for (statistics may be nullptr); else all that is asked for. In the
+/// table's order; `decided`: what stages other than the pixel stages have decided for themselves.
+ScenePlan plan_of(const OperatorChoice& choice, const AppearanceParameters& scene,
+                  const SceneStatistics* statistics, const std::vector<EffectDecision>& decided);
 
-/// With --effects auto what the scene calls for (statistics may be nullptr); else all that is asked for.
-ScenePlan plan_of(const OperatorChoice& choice, const PlanRequest& request,
-                  const SceneStatistics* statistics);
-
-/// Puts a decision that was taken elsewhere in its place.
-void set_decision(ScenePlan& plan, const EffectDecision& decision);
-
-/// "shift, chroma; skipped luminance (no pixel's S/P ...), acuity (...)".
+/// "shift, chroma; skipped luminance (no pixel's S/P ...), detail (...)".
 std::string plan_line(const ScenePlan& plan);
 
 }  // namespace scotopic

@@ -13,8 +13,7 @@ namespace {
 class NightRows : public RowStage {
  public:
   NightRows(const NightDisplayParameters& parameters, Precision precision) : batch_(parameters, precision) {}
-  void apply(const PixelRows& rows, const RowContext&, const KeptPlanes&,
-             std::uint8_t* touched) const override {
+  void apply(const PixelRows& rows, const RowSight&, std::uint8_t* touched) const override {
     batch_.apply(rows, touched);
   }
 
@@ -45,6 +44,15 @@ DisplayRange measured_range(const DisplayParameters& p, PixelSource& source, con
 }
 
 }  // namespace
+
+NightDisplayParameters night_parameters(const StageValues& values) {
+  NightDisplayParameters out;
+  out.rule = values.number("visibility") == 0 ? VisibilityRule::hdrvdp2 : VisibilityRule::ward1997;
+  out.viewing = values.number("viewing-adaptation");
+  out.peak = values.number("peak");
+  out.strength = values.number("strength-display");
+  return out;
+}
 
 void refuse_idle_options(const DisplayChoice& choice, const ImageLayout& layout) {
   if (!layout.night && !choice.of_night.empty())

@@ -13,6 +13,9 @@
 
 namespace scotopic {
 
+/// The scene's numbers aside.
+NightDisplayParameters night_parameters(const StageValues& values);
+
 /// Error(usage) for options of the display stage where the layout has none.
 void refuse_idle_options(const DisplayChoice& choice, const ImageLayout& layout);
 

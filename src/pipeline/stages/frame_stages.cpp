@@ -23,7 +23,7 @@ FramesOfImage::FramesOfImage(OpenImage& image, const ImageSettings& settings, co
                              const Notes& notes)
     : image_(image), settings_(settings) {
   scene_.parameters = settings.choice.parameters;
-  scene_.resolution = angular_resolution(settings.acuity, *image.source, image.layout);
+  scene_.resolution = angular_resolution(settings.viewing, *image.source, image.layout);
   scene_.wraps = image.layout.wraps;
   choose();
   if (any()) decode(moment, notes);
@@ -32,7 +32,7 @@ FramesOfImage::FramesOfImage(OpenImage& image, const ImageSettings& settings, co
 void FramesOfImage::choose() {
   for (const auto& stage : settings_.frame_stages) {
     try {
-      decisions_.push_back(stage->asked(scene_));
+      decisions_.push_back(stage->decide(scene_));
     } catch (const Error& error) {
       throw Error(error.code(), image_.source->file(), error.what());
     }

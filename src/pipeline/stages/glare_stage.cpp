@@ -1,9 +1,10 @@
-#include "pipeline/stages/glare_stage.h"
-
+// Stage glare on whole pictures: what of a scene scatters in the eye.
 #include <algorithm>
 #include <stdexcept>
 
 #include "base/error.h"
+#include "pipeline/stages/stages.h"
+#include "stages/glare/description.h"
 #include "stages/glare/filter.h"
 
 namespace scotopic {
@@ -11,44 +12,45 @@ namespace {
 
 class GlareStage : public FrameStage {
  public:
-  GlareStage(const GlareChoice& choice, EffectWish wish, const NightDisplayParameters& shown)
-      : choice_(choice), wish_(wish), shown_(shown) {}
+  GlareStage(const StageValues& values, const NightDisplayParameters& shown)
+      : values_(values),
+        shown_(shown),
+        off_(values.word<Word>("glare") == Word::none),
+        rule_(values.word<Word>("glare") == Word::all ? GlareRule::all : GlareRule::above) {}
 
-  std::string_view name() const noexcept override { return "glare"; }
-  EffectDecision asked(const StageScene& scene) const override;
+  std::string_view name() const noexcept override { return glare_description.name; }
+  EffectDecision decide(const StageScene& scene) const override;
   std::int64_t bytes(const FrameSize& size, const StageScene& scene) const override;
   FrameOutcome run(const FramePlanes& light, const StageScene& scene,
                    const ParallelFor& parallel_for) const override;
   std::vector<Attribute> stamps(const StageScene& scene) const override;
 
  private:
-  double strength(const StageScene& scene) const { return choice_.strength * scene.parameters.strength.all; }
+  enum class Word { above, all, none };
+
+  double strength(const StageScene& scene) const {
+    return values_.number("strength-glare") * scene.parameters.strength.all;
+  }
   double threshold(const StageScene& scene) const;
   GlareFilter filter(int width, int height, double threshold, const StageScene& scene) const;
 
-  GlareChoice choice_;
-  EffectWish wish_;
+  StageValues values_;
   NightDisplayParameters shown_;
+  bool off_;
+  GlareRule rule_;
 };
 
-EffectDecision GlareStage::asked(const StageScene& scene) const {
-  EffectDecision d;
-  d.effect = name();
+EffectDecision GlareStage::decide(const StageScene& scene) const {
+  const bool named = values_.given("glare") && !off_;
+  EffectDecision d = asked_at_resolution(values_, glare_description, named, scene);
   d.unit = "pixels";
-  const bool known = scene.resolution.known;
-  const bool model_has_it = scene.parameters.model != Model::safko2019;
-  const bool by_name = (wish_ == EffectWish::yes && model_has_it) || (choice_.named && !choice_.off);
-  const bool wished = by_name || (wish_ == EffectWish::if_known && model_has_it && known);
-  d.asked = !choice_.off && strength(scene) > 0 && wished;
-  if (by_name && d.asked && !known)
-    throw Error(ExitCode::usage, "", "glare needs pixels per degree, which are not known: --fov or --ppd");
-  d.reason = known ? "not asked for" : "pixels per degree are not known (--ppd, --fov)";
+  if (off_ || !(strength(scene) > 0)) d.asked = false;
   return d;
 }
 
 // Image units: what the display cannot show.
 double GlareStage::threshold(const StageScene& scene) const {
-  if (choice_.threshold) return *choice_.threshold;
+  if (values_.number("glare-threshold") > 0) return values_.number("glare-threshold");
   NightDisplayParameters shown = shown_;
   shown.adaptation = scene.parameters.adaptation;
   shown.white_luminance = scene.parameters.white_luminance;
@@ -57,8 +59,9 @@ double GlareStage::threshold(const StageScene& scene) const {
 
 GlareFilter GlareStage::filter(int width, int height, double threshold, const StageScene& scene) const {
   GlareParameters p;
-  p.eye = choice_.eye;
-  p.rule = choice_.rule;
+  p.eye.age = values_.number("age");
+  p.eye.pigmentation = values_.number("pigmentation");
+  p.rule = rule_;
   p.threshold = threshold;
   p.grid.width = width;
   p.grid.height = height;
@@ -94,18 +97,17 @@ FrameOutcome GlareStage::run(const FramePlanes& light, const StageScene& scene,
 }
 
 std::vector<Attribute> GlareStage::stamps(const StageScene& scene) const {
-  return {{"scotopic:glareThreshold", choice_.rule == GlareRule::all ? 0.0 : threshold(scene)},
-          {"scotopic:glareAge", choice_.eye.age},
-          {"scotopic:glarePigmentation", choice_.eye.pigmentation},
-          {"scotopic:glareStrength", choice_.strength},
+  return {{"scotopic:glareThreshold", rule_ == GlareRule::all ? 0.0 : threshold(scene)},
+          {"scotopic:glareAge", values_.number("age")},
+          {"scotopic:glarePigmentation", values_.number("pigmentation")},
+          {"scotopic:glareStrength", values_.number("strength-glare")},
           {"scotopic:glarePixelsPerDegree", scene.resolution.pixels_per_degree}};
 }
 
 }  // namespace
 
-std::shared_ptr<const FrameStage> glare_stage(const GlareChoice& choice, EffectWish wish,
-                                              const NightDisplayParameters& shown) {
-  return std::make_shared<const GlareStage>(choice, wish, shown);
+void add_glare(const StageValues& values, ImageSettings& settings) {
+  settings.frame_stages.push_back(std::make_shared<const GlareStage>(values, settings.display.night));
 }
 
 }  // namespace scotopic

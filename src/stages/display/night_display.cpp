@@ -4,7 +4,7 @@
 
 #include "stages/display/night_display-inl.h"
 #include "stages/shared/scalar-inl.h"
-#include "stages/table.h"
+#include "stages/limits.h"
 
 namespace scotopic {
 

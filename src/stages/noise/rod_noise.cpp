@@ -7,7 +7,7 @@
 #include "stages/acuity/cutoff.h"
 #include "stages/noise/rod_noise-inl.h"
 #include "stages/shared/scalar-inl.h"
-#include "stages/table.h"
+#include "stages/limits.h"
 
 namespace scotopic {
 namespace {

@@ -33,6 +33,7 @@ struct BatchPrecision<double> {
 template <typename T>
 struct WeightConstants {
   T unit, adaptation, scotopic_limit, photopic_limit;
+  T behind;  ///< L_r - La: rods that are still adapting
   T luminance_rounding;         ///< of y_row's sum, in cd/m2, per sum of its terms' magnitudes
   T inverse_high, per_octave;   ///< v = -log2(L * inverse_high) * per_octave
   std::array<T, BatchPrecision<T>::mesopic_degree + 1> mesopic;  ///< (1 - m)/v as a polynomial in v
@@ -80,7 +81,7 @@ struct ChromaConstants {
 
 /// What is on.
 struct StageSwitches {
-  bool safko, local, mesopic_policy, quadratic_rods, shift, project, gamut_is_rgb, luminance, chroma, mix;
+  bool safko, local, mesopic_policy, quadratic_rods, shift, project, gamut_is_rgb, luminance, chroma, mix, adapting;
 
   explicit StageSwitches(const OperatorConstants& c) noexcept
       : safko(c.parameters.model == Model::safko2019),
@@ -92,7 +93,8 @@ struct StageSwitches {
         gamut_is_rgb(c.gamut_is_rgb),
         luminance(c.luminance > 0),
         chroma(c.chroma > 0),
-        mix(c.mix > 0 && c.mix < 1) {}
+        mix(c.mix > 0 && c.mix < 1),
+        adapting(c.parameters.rod_adaptation.has_value()) {}
 };
 
 /// Stages that code without branches is compiled for; all with local weight, linear rods, and a projection into the
@@ -108,7 +110,7 @@ enum class StageSet {
 
 /// The set that is on; any, where there is no loop for just that.
 constexpr StageSet stage_set(const StageSwitches& on) noexcept {
-  if (on.quadratic_rods || (on.mix && !on.safko)) return StageSet::any;
+  if (on.adapting || on.quadratic_rods || (on.mix && !on.safko)) return StageSet::any;
   if (on.safko) return StageSet::kernel;
   if (!on.local || (on.shift && !on.gamut_is_rgb)) return StageSet::any;
   if (on.shift && on.luminance && on.chroma) return on.mesopic_policy ? StageSet::all : StageSet::grey;
@@ -144,6 +146,7 @@ WeightConstants<T> weight_constants(const AppearanceParameters& p) {
   k.unit = t(p.white_luminance);
   k.luminance_rounding = t(0x1p-20 * p.white_luminance);  // 4 roundings in float, and room
   k.adaptation = t(p.adaptation);
+  k.behind = t(p.rod_adaptation.value_or(p.adaptation) - p.adaptation);
   k.scotopic_limit = t(mesopic_scotopic_limit());
   k.photopic_limit = t(mesopic_photopic_limit());
   const MesopicFit<BatchPrecision<T>::mesopic_degree> fit;

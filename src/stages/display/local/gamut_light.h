@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "stages/shared/projection.h"
-#include "stages/table.h"
+#include "stages/limits.h"
 #include "stages/display/local/display.h"
 #include "receptors/receptor_space.h"
 
