@@ -106,7 +106,8 @@ def chunk_name(index):
 def chunk_command(job, index):
     command = list(job.command)
     if job.meter:
-        command[command.index("--adaptation-from") + 1] = job.path("meter.json")
+        at = command.index("--adaptation-from") + 1
+        command[at] = ("track:" if command[at] == "track" else "") + job.path("meter.json")
     flags = [f for f in ("--skip-existing", "--continue-on-error", "--json") if f not in command]
     return command + ["--frames", job.chunks[index]] + flags + threads(command)
 
@@ -160,7 +161,7 @@ def submit(options):
         sys.exit("scotopic_farm.py: --frames comes before the --, not after it")
     frames = parse_frames(options.frames)
     chunks = [list_text(frames[i:i + options.chunk]) for i in range(0, len(frames), options.chunk)]
-    meter = "--adaptation-from" in command and command[command.index("--adaptation-from") + 1:][:1] == ["frames"]
+    meter = "--adaptation-from" in command and command[command.index("--adaptation-from") + 1:][:1] in (["frames"], ["track"])
     os.makedirs(options.folder, exist_ok=True)
     if os.path.exists(os.path.join(options.folder, "job.json")):
         sys.exit(f"scotopic_farm.py: {options.folder} holds a job already; give it a folder of its own")

@@ -7,6 +7,7 @@
 
 #include "cli/console.h"
 #include "cli/sequence/recipe.h"
+#include "pipeline/stages/stage_values.h"
 
 namespace scotopic {
 
@@ -14,6 +15,7 @@ namespace scotopic {
 struct Invocation {
   std::function<int()> run;
   const CommonOptions* common = nullptr;
+  StageTable stages = shipped_stages();  ///< that verbs have options for
 };
 
 /// Adds a subcommand with its options and help; on the command line it sets the invocation.

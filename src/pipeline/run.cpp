@@ -260,10 +260,10 @@ SceneReport read_scene(const ImageJob& asked, const ImageSettings& settings, Sta
   ImageJob job = asked;
   OpenImage image = open_to_read(settings, job.input, notes);
   follow_track(job, image.known);
-  if (settings.sequence)
-    job.moment.seconds = job.moment.frame / frame_rate(settings.choice.stages, *image.source).rate;
-  FramesOfImage frames(image, settings, job.moment, notes);
   SceneReport scene;
+  scene.frame_rate = frame_rate(settings.choice.stages, *image.source).rate;
+  if (settings.sequence) job.moment.seconds = job.moment.frame / scene.frame_rate;
+  FramesOfImage frames(image, settings, job.moment, notes);
   see_scene(image, settings, wanted, frames, scene);
   plan(job, image, settings, frames.decisions(), scene);
   scene.spectral = spectral_report_of(*image.source);

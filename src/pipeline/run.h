@@ -44,6 +44,7 @@ struct SceneReport {
   ScenePlan plan;
   AngularResolution resolution;
   std::optional<AdaptationTrace> adapting;
+  double frame_rate = 24;
   std::optional<SpectralReport> spectral;
 };
 

@@ -29,6 +29,7 @@ nlohmann::ordered_json image_json(const ImageReport& r) {
   out["notes"] = r.notes;
   if (r.scene.spectral) out["spectral"] = spectral_json(r.scene.spectral);
   out["effects"] = plan_json(r.scene.plan);
+  if (r.scene.adapting) out["state"] = adapting_json(r.scene.adapting->state, r.scene.adapting->thresholds);
   out["nonFinite"] = r.non_finite.count;
   if (!r.evaluator->measured.empty()) out["ways"] = measured_json(r.evaluator->measured);
   if (r.tone)
@@ -43,6 +44,18 @@ nlohmann::ordered_json image_json(const ImageReport& r) {
                       {"scale", r.night->scale},
                       {"shoulder", r.night->bends}};
   return out;
+}
+
+nlohmann::ordered_json adapting_json(const AdaptationState& state, const AdaptationThresholds& thresholds) {
+  return {{"rodLog10Threshold", thresholds.rod_log10},
+          {"coneLog10Threshold", thresholds.cone_log10},
+          {"exposure", thresholds.exposure},
+          {"equivalentLuminance", thresholds.rod_luminance},
+          {"rodBleached", state.rod_bleached},
+          {"rodProduct", state.rod_product},
+          {"coneBleached", state.cone_bleached},
+          {"rodNeural", state.rod_neural},
+          {"coneNeural", state.cone_neural}};
 }
 
 nlohmann::ordered_json plan_json(const ScenePlan& plan) {

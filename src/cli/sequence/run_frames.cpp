@@ -102,8 +102,14 @@ class SequenceReport {
  private:
   void tell_progress(const Frame& frame, const Outcome& outcome) {
     line_.at(static_cast<std::int64_t>(results_.size()), static_cast<std::int64_t>(skipped_));
-    if (on_terminal() || console_.json() || outcome.failure) return;
+    if (on_terminal() || console_.json() || outcome.failure || !told()) return;
     console_.note(fmt::format("{}: {} ({})", frame.paths.output, outcome.skipped ? "is there already" : "written", line_.text()));
+  }
+
+  /// Not each of many frames: some ten in all.
+  bool told() const {
+    const std::size_t every = console_.options().verbose ? 1 : (frames_.size() + 9) / 10;
+    return results_.size() % every == 0;
   }
 
   std::string summary() const {
@@ -150,13 +156,21 @@ int run_sequence(const FrameList& list, FrameJob& work, const std::vector<Frame>
   return report.finish();
 }
 
+/// A line whose numbers alone differ from frame to frame is the same line.
+std::string without_numbers(const std::string& line) {
+  std::string out;
+  for (const char c : line)
+    if (c < '0' || c > '9') out += c;
+  return out;
+}
+
 }  // namespace
 
 void SaidOnce::say(const Console& console, const FramePaths& paths, const std::vector<std::string>& lines) {
   for (const std::string& line : lines) {
     const bool own = line.rfind(paths.input + ": ", 0) == 0;
     const std::string key = own ? line.substr(paths.input.size()) : line;
-    if (said_.insert(key).second) console.note(line);
+    if (said_.insert(console.options().verbose ? key : without_numbers(key)).second) console.note(line);
   }
 }
 

@@ -16,7 +16,7 @@ int run_frames(const std::string& verb, FrameJob& job, const std::vector<Frame>&
                const Console& console);
 
 /// Prints lines about frames, each once however many frames it is true of: a line that begins with a frame's own input
-/// counts as the same for all.
+/// counts as the same for all, and so do lines whose numbers alone differ, unless all is asked for (-v).
 class SaidOnce {
  public:
   void say(const Console& console, const FramePaths& paths, const std::vector<std::string>& lines);

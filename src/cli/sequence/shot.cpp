@@ -9,6 +9,7 @@
 #include "cli/sequence/in_order.h"
 #include "cli/sequence/progress_line.h"
 #include "pipeline/run.h"
+#include "pipeline/scene/open_image.h"
 
 namespace scotopic {
 namespace {
@@ -19,6 +20,8 @@ struct FrameMeter {
   std::optional<double> file_unit;
   std::optional<Error> failure;
 };
+
+constexpr std::string_view track_of = "track:";
 
 FrameMeter meter_frame(const ImageSettings& settings, const Frame& frame) {
   FrameMeter out;
@@ -63,25 +66,67 @@ std::vector<FrameMeter> meter_frames(const ImageSettings& settings, const std::v
   return meters;
 }
 
-double read_shot(const std::string& file) {
+std::string contents_of(const std::string& file) {
   std::ifstream stream(file);
-  if (!stream) throw Error(ExitCode::input, file, "cannot be read: --adaptation-from takes 'frames' or a file that explain --json wrote");
-  const auto json = nlohmann::json::parse(stream, nullptr, false);
-  const auto number = json.is_object() && json.contains("shot") && json["shot"].is_object() && json["shot"].contains("adaptation")
-                          ? json["shot"]["adaptation"]
-                          : nlohmann::json();
+  if (!stream)
+    throw Error(ExitCode::input, file,
+                "cannot be read: --adaptation-from takes frames, track, a file that explain --json wrote (track:FILE for "
+                "each frame's own), or one of keys");
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// What explain --json says of a shot; nullopt: it says nothing of one.
+std::optional<double> shot_of(const std::string& text, const std::string& file) {
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_object() || !json.contains("shot")) return std::nullopt;
+  const auto number =
+      json["shot"].is_object() && json["shot"].contains("adaptation") ? json["shot"]["adaptation"] : nlohmann::json();
   const double value = number.is_number() ? number.get<double>() : 0;
   if (!(value >= 1e-9 && value <= 1e9))
     throw Error(ExitCode::input, file, "has no adaptation of a shot, as explain --frames --json writes it");
   return value;
 }
 
+/// Adaptations of the frames that could be metered, in their order.
+std::vector<AdaptationKey> metered_keys(const ImageSettings& settings, const std::vector<Frame>& frames,
+                                        const FrameOptions& options, const Console& console) {
+  std::vector<AdaptationKey> keys;
+  std::optional<Error> failure;
+  const std::vector<FrameMeter> meters = meter_frames(settings, frames, options, console);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (meters[i].failure) failure = failure ? failure : meters[i].failure;
+    else keys.push_back({*frames[i].number, meters[i].adaptation});
+  }
+  if (keys.empty()) throw *failure;
+  std::sort(keys.begin(), keys.end(), [](const AdaptationKey& a, const AdaptationKey& b) { return a.frame < b.frame; });
+  return keys;
+}
+
+/// Of the first frame's file where --fps does not tell.
+double frame_rate_of(const ImageSettings& settings, const Frame& first, const Console& console) {
+  const StageValues& stages = settings.choice.stages;
+  if (stages.number("fps") > 0) return stages.number("fps");
+  const FrameRate found =
+      frame_rate(stages, *open_input(first.paths.input, settings.spectral, settings.limits, console.notes()));
+  console.note(fmt::format("{:g} frames a second ({}; --fps tells)", found.rate, found.source));
+  return found.rate;
+}
+
+AdaptationTrack track_from(std::vector<AdaptationKey> keys, const ImageSettings& settings, const std::vector<Frame>& frames,
+                           const std::string& source, const Console& console) {
+  int last = 0;
+  for (const Frame& frame : frames) last = std::max(last, frame.number.value_or(0));
+  return {std::move(keys), settings.time.history, frame_rate_of(settings, frames.front(), console), last, source};
+}
+
 }  // namespace
 
 void add_shot_options(CLI::App& verb, std::string& adaptation_from) {
   verb.add_option("--adaptation-from", adaptation_from,
-                  "One adaptation for all frames: frames (the median of theirs), or a file that explain --json wrote of them")
-      ->type_name("frames|FILE")
+                  "One adaptation for all frames: frames (the median of theirs), or a file that explain --json wrote of "
+                  "them; or an eye that follows: track (each frame's own), track:FILE (explain's), or a file of keys "
+                  "(frame,cd/m2 lines, or JSON)")
+      ->type_name("WHAT")
       ->group("What is seen");
 }
 
@@ -89,8 +134,8 @@ void check_shot(const std::string& adaptation_from, const OperatorChoice& choice
   if (adaptation_from.empty()) return;
   if (choice.adaptation)
     throw Error(ExitCode::usage, "", "--adaptation-from meters the frames, --adaptation gives a number: choose one");
-  if (adaptation_from == "frames" && !frames.front().number)
-    throw Error(ExitCode::usage, "", "--adaptation-from frames needs --frames");
+  if ((adaptation_from == "frames" || adaptation_from == "track") && !frames.front().number)
+    throw Error(ExitCode::usage, "", "--adaptation-from " + adaptation_from + " needs --frames");
 }
 
 ShotLight shot_light(std::vector<double> a) {
@@ -104,29 +149,36 @@ nlohmann::ordered_json shot_json(const ShotLight& shot) {
   return {{"adaptation", shot.median}, {"least", shot.least}, {"greatest", shot.greatest}, {"frames", shot.frames}};
 }
 
-void settle_shot(const std::string& adaptation_from, ImageSettings& settings, const std::vector<Frame>& frames,
-                 const FrameOptions& options, const Console& console) {
+std::optional<AdaptationTrack> settle_shot(const std::string& from, ImageSettings& settings,
+                                           const std::vector<Frame>& frames, const FrameOptions& options,
+                                           const Console& console) {
   OperatorChoice& choice = settings.choice;
-  check_shot(adaptation_from, choice, frames);
-  if (adaptation_from.empty()) {
+  check_shot(from, choice, frames);
+  if (from.empty()) {
     if (frames.size() > 1 && !choice.adaptation)
       console.note("each frame is adapted to its own light, which can flicker: --adaptation-from frames holds one for all");
-  } else if (adaptation_from != "frames") {
-    choice.adaptation = read_shot(adaptation_from);
-    choice.adaptation_source = "the shot's, from " + adaptation_from;
-  } else {
+    return std::nullopt;
+  }
+  if (from == "track")
+    return track_from(metered_keys(settings, frames, options, console), settings, frames, "track of the frames", console);
+  if (from == "frames") {
     std::vector<double> adaptations;
-    std::optional<Error> failure;
-    for (const FrameMeter& m : meter_frames(settings, frames, options, console)) {
-      if (m.failure) failure = failure ? failure : m.failure;
-      else adaptations.push_back(m.adaptation);
-    }
-    if (adaptations.empty()) throw *failure;
+    for (const AdaptationKey& key : metered_keys(settings, frames, options, console)) adaptations.push_back(key.luminance);
     const ShotLight shot = shot_light(adaptations);
     choice.adaptation = shot.median;
     choice.adaptation_source =
         fmt::format("median of {} frames, {:.4g} to {:.4g}", shot.frames, shot.least, shot.greatest);
+    return std::nullopt;
   }
+  const bool track = from.rfind(track_of, 0) == 0;
+  const std::string file = track ? from.substr(track_of.size()) : from;
+  const std::string text = contents_of(file);
+  if (const std::optional<double> shot = track ? std::nullopt : shot_of(text, file)) {
+    choice.adaptation = *shot;
+    choice.adaptation_source = "the shot's, from " + file;
+    return std::nullopt;
+  }
+  return track_from(parse_adaptation_keys(text, file), settings, frames, "track of " + file, console);
 }
 
 }  // namespace scotopic

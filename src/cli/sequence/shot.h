@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/sequence/adaptation_track.h"
 #include "cli/sequence/frame_options.h"
 #include "cli/scene/scene_settings.h"
 
@@ -28,11 +29,12 @@ ShotLight shot_light(std::vector<double> adaptations);
 /// What explain --json says of it, and apply --adaptation-from FILE reads.
 nlohmann::ordered_json shot_json(const ShotLight& shot);
 
-/// Sets the adaptation of `settings` where --adaptation-from asks for it: the median of all frames' own, each metered as
-/// --adaptation says ("frames"), or the one that explain found ("FILE", its --json). For `frames` the unit has to
-/// be known: Error(usage) names a frame that does not tell it. Without --adaptation-from, and where each frame would be
-/// metered by itself, warns that the result may flicker.
-void settle_shot(const std::string& adaptation_from, ImageSettings& settings, const std::vector<Frame>& frames,
+/// What --adaptation-from asks for. One adaptation for all frames is set in `settings`: the median of all
+/// frames' own, each metered as --adaptation says ("frames"), or the one that explain found (FILE, its --json). A track
+/// is returned: each frame's own ("track"), that which explain found ("track:FILE"), or keys (FILE, parse_adaptation_keys).
+/// For `frames` and `track` the unit has to be known: Error(usage) names a frame that does not tell it. Without
+/// --adaptation-from, and where each frame would be metered by itself, warns that the result may flicker.
+std::optional<AdaptationTrack> settle_shot(const std::string& adaptation_from, ImageSettings& settings, const std::vector<Frame>& frames,
                  const FrameOptions& options, const Console& console);
 
 }  // namespace scotopic

@@ -40,6 +40,7 @@ class ApplyJob : public FrameJob {
   ApplyJob(const ApplyOptions& options, const Console& console);
 
   ImageSettings& scene() { return settings_; }
+  void follow(std::optional<AdaptationTrack> track) { track_ = std::move(track); }
   /// Whether the tone map of each image follows that image.
   bool measures_display() const { return settings_.display.tone && !settings_.display.range; }
   std::string settings() const override;
@@ -49,6 +50,7 @@ class ApplyJob : public FrameJob {
  private:
   std::unique_ptr<EvaluatorSource> evaluators_;
   ImageSettings settings_;
+  std::optional<AdaptationTrack> track_;
 };
 
 /// In the order in which faults are to be told.
@@ -76,10 +78,13 @@ ApplyJob::ApplyJob(const ApplyOptions& o, const Console& console)
 
 std::string ApplyJob::settings() const {
   const std::optional<double>& adaptation = settings_.choice.adaptation;
-  return colour_identity(settings_.config) + (adaptation ? fmt::format(" {:a}", *adaptation) : "");
+  return colour_identity(settings_.config) + (adaptation ? fmt::format(" {:a}", *adaptation) : "") +
+         (track_ ? track_->identity() : "");
 }
 
-nlohmann::ordered_json ApplyJob::run(const ImageJob& job, const Console& console) {
+nlohmann::ordered_json ApplyJob::run(const ImageJob& asked, const Console& console) {
+  ImageJob job = asked;
+  if (track_) job.adaptation = track_->at(job.moment.frame);
   const ImageReport report = run_image(job, settings_, *evaluators_, console.notes());
   tell_non_finite(report.non_finite, job.input,
                   settings_.non_finite == NonFinite::clean ? "cleaned" : "passed on without the operator (--nonfinite)",
@@ -95,7 +100,7 @@ int run_apply(const ApplyOptions& options) {
   set_threads(options.common.threads);
   check_shot(options.adaptation_from, job.scene().choice, frames);
   check_places(frames, options.frames);
-  settle_shot(options.adaptation_from, job.scene(), frames, options.frames, console);
+  job.follow(settle_shot(options.adaptation_from, job.scene(), frames, options.frames, console));
   if (frames.size() > 1 && job.measures_display())
     console.note("each frame's range is mapped to the display by itself, which can flicker: --display-range holds one");
   return run_frames("apply", job, frames, options.frames, console);
@@ -117,6 +122,7 @@ void add_apply(CLI::App& program, Invocation& invocation) {
       ->required()
       ->type_name("OUT");
   SceneOptions& scene = options->scene;
+  scene.appearance.stages.table = invocation.stages;
   add_scene_options(verb, scene);
   add_shot_options(verb, options->adaptation_from);
   add_frame_options(verb, options->frames);

@@ -83,6 +83,7 @@ nlohmann::ordered_json result_of(const ExplainOptions& options, const LightNumbe
   out["spectral"] = spectral_json(scene.spectral);
   out["mesopic"] = {{"mean", light.mesopic}};
   out["effects"] = plan_json(plan);
+  if (scene.adapting) out["state"] = adapting_json(scene.adapting->state, scene.adapting->thresholds);
   for (std::size_t i = 0; i < plan.effects.size(); ++i)
     out["effects"][std::string(plan.effects[i].effect)]["nsPerPixel"] = costs[i];
   for (const LuminanceBar& bar : luminance_bars(statistics, numbers.white_luminance))
@@ -159,6 +160,7 @@ void add_explain(CLI::App& program, Invocation& invocation) {
   verb.add_option("input", options->input, "As for apply; or an OCIO config (.ocio): what its looks do")
       ->type_name("IN|CONFIG");
   verb.add_flag("--adaptations", options->adaptations, "List the names that --adaptation takes");
+  options->scene.appearance.stages.table = invocation.stages;
   add_scene_options(verb, options->scene);
   add_reading_frame_options(verb, options->frames);
   add_band_options(verb, options->scene.bands);

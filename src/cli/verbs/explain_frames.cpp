@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cli/report/image_report.h"
+#include "cli/sequence/adaptation_track.h"
 #include "cli/sequence/in_order.h"
 #include "cli/sequence/progress_line.h"
 #include "cli/sequence/run_frames.h"
@@ -32,6 +34,7 @@ std::vector<std::string> running(const ScenePlan& plan) {
 struct Metered {
   FrameLight light;
   AngularResolution resolution;
+  double frame_rate = 24;
   std::optional<Error> failure;
   std::vector<std::string> notes;
 };
@@ -42,6 +45,7 @@ void meter_one(const ImageSettings& settings, const Frame& frame, const Console&
   job.moment.frame = *frame.number;
   const SceneReport scene = read_scene(job, settings, Statistics::of_all_pixels, console.notes());
   out.resolution = scene.resolution;
+  out.frame_rate = scene.frame_rate;
   out.light = {*frame.number, frame.paths.input, scene.numbers, scene.statistics->sp_ratio(), running(scene.plan)};
 }
 
@@ -66,16 +70,44 @@ std::vector<Metered> meter_all(const ImageSettings& settings, const std::vector<
   return all;
 }
 
-void print(const std::vector<FrameLight>& frames, const ShotLight& shot, const std::vector<std::string>& effects,
-           const std::vector<PlanChange>& changes) {
+/// Where an eye stands at each frame that follows the frames' own adaptations.
+std::vector<AdaptationTrace> traces_of(const std::vector<FrameLight>& frames, const ImageSettings& settings,
+                                       double frame_rate) {
+  std::vector<AdaptationKey> keys;
+  for (const FrameLight& f : frames) keys.push_back({f.frame, f.numbers.adaptation});
+  const AdaptationTrack track(keys, settings.time.history, frame_rate, keys.back().frame, "");
+  std::vector<AdaptationTrace> out;
+  for (const FrameLight& f : frames)
+    out.push_back({track.state(f.frame), thresholds_of(track.state(f.frame), f.numbers.adaptation)});
+  return out;
+}
+
+/// Whether the frame calls for time, by an eye that follows the frames before it.
+void set_time(FrameLight& light, const AdaptationTrace& trace, const ImageSettings& settings) {
+  std::erase(light.effects, "time");
+  if (settings.time.history.empty() || !adaptation_is_called_for(trace.thresholds, light.numbers.adaptation)) return;
+  light.effects.emplace_back("time");
+}
+
+/// "; rods at 2.1 decades over their absolute threshold, cones at 3.0, 0.02 of what an adapted eye sees".
+std::string trace_text(const AdaptationTrace& trace) {
+  const AdaptationThresholds& t = trace.thresholds;
+  return fmt::format("; threshold 10^{:.2f} of rods, 10^{:.2f} of cones, {:.3g} of what an adapted eye sees", t.rod_log10,
+                     t.cone_log10, t.exposure);
+}
+
+void print(const std::vector<FrameLight>& frames, const std::vector<AdaptationTrace>& traces, const ShotLight& shot,
+           const std::vector<std::string>& effects, const std::vector<PlanChange>& changes) {
   constexpr int width = 30;
   const double span = std::log(shot.greatest / shot.least);
   fmt::print("   frame   La, cd/m2    S/P  {:<{}}  calls for\n", "", width);
-  for (const FrameLight& f : frames) {
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const FrameLight& f = frames[i];
+    const bool adapting = std::find(f.effects.begin(), f.effects.end(), "time") != f.effects.end();
     const double share = span > 0 ? std::log(f.numbers.adaptation / shot.least) / span : 1;
     const auto bar = static_cast<std::size_t>(1 + std::lround(share * (width - 1)));
-    fmt::print("{:>8} {:>11.4g} {:>6.3g}  {:<{}}  {}\n", f.frame, f.numbers.adaptation, f.sp_ratio, std::string(bar, '#'),
-               width, joined(f.effects));
+    fmt::print("{:>8} {:>11.4g} {:>6.3g}  {:<{}}  {}{}\n", f.frame, f.numbers.adaptation, f.sp_ratio,
+               std::string(bar, '#'), width, joined(f.effects), adapting ? trace_text(traces[i]) : "");
   }
   for (const PlanChange& c : changes)
     fmt::print("from frame {} on: {}{}{}\n", c.frame, c.begins.empty() ? "" : "with " + joined(c.begins),
@@ -85,15 +117,16 @@ void print(const std::vector<FrameLight>& frames, const ShotLight& shot, const s
              shot.median, shot.frames, shot.least, shot.greatest, joined(effects));
 }
 
-nlohmann::ordered_json result_of(const std::vector<FrameLight>& frames, const ShotLight& shot,
-                                 const std::vector<std::string>& effects, const std::vector<PlanChange>& changes) {
+nlohmann::ordered_json result_of(const std::vector<FrameLight>& frames, const std::vector<AdaptationTrace>& traces,
+                                 const ShotLight& shot, const std::vector<std::string>& effects, const std::vector<PlanChange>& changes) {
   nlohmann::ordered_json out;
   out["shot"] = shot_json(shot);
   out["shot"]["effects"] = effects;
   out["changes"] = nlohmann::ordered_json::array();
   for (const PlanChange& c : changes)
     out["changes"].push_back({{"frame", c.frame}, {"begins", c.begins}, {"ends", c.ends}});
-  for (const FrameLight& f : frames)
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const FrameLight& f = frames[i];
     out["frames"].push_back({{"frame", f.frame},
                              {"input", f.input},
                              {"adaptation", f.numbers.adaptation},
@@ -101,7 +134,9 @@ nlohmann::ordered_json result_of(const std::vector<FrameLight>& frames, const Sh
                              {"whiteLuminance", f.numbers.white_luminance},
                              {"whiteLuminanceSource", f.numbers.white_luminance_source},
                              {"spRatio", f.sp_ratio},
+                             {"state", adapting_json(traces[i].state, traces[i].thresholds)},
                              {"effects", f.effects}});
+  }
   return out;
 }
 
@@ -128,6 +163,7 @@ int explain_frames(const ImageSettings& settings, const std::vector<Frame>& fram
   std::vector<double> adaptations;
   std::optional<Error> failure;
   std::optional<AngularResolution> resolution;
+  double frame_rate = 24;
   for (Metered& m : meter_all(settings, frames, options, console)) {
     if (m.failure) {
       if (!options.continue_on_error) throw *m.failure;
@@ -135,11 +171,14 @@ int explain_frames(const ImageSettings& settings, const std::vector<Frame>& fram
       if (!failure) failure = m.failure;
       continue;
     }
+    if (!resolution) frame_rate = m.frame_rate;
     if (!resolution) resolution = m.resolution;
     adaptations.push_back(m.light.numbers.adaptation);
     lights.push_back(std::move(m.light));
   }
   if (lights.empty()) return static_cast<int>(failure->code());
+  const std::vector<AdaptationTrace> traces = traces_of(lights, settings, frame_rate);
+  for (std::size_t i = 0; i < lights.size(); ++i) set_time(lights[i], traces[i], settings);
   const ShotLight shot = shot_light(adaptations);
   SceneNumbers of_shot = lights.front().numbers;
   of_shot.adaptation = shot.median;
@@ -147,8 +186,8 @@ int explain_frames(const ImageSettings& settings, const std::vector<Frame>& fram
   const std::vector<std::string> effects = running(plan_for(settings, of_shot, *resolution, nullptr));
   const std::vector<PlanChange> changes = plan_changes(lights);
   if (plot) write_text(*plot, adaptation_svg(lights, shot.median, changes));
-  if (!console.json()) print(lights, shot, effects, changes);
-  console.result(result_of(lights, shot, effects, changes));
+  if (!console.json()) print(lights, traces, shot, effects, changes);
+  console.result(result_of(lights, traces, shot, effects, changes));
   return static_cast<int>(failure ? failure->code() : ExitCode::done);
 }
 
