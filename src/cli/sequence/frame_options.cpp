@@ -80,9 +80,20 @@ void add_frame_options(CLI::App& verb, FrameOptions& o) {
       ->group(group);
 }
 
+namespace {
+
+/// A pattern by itself is no file's name.
+void refuse_pattern(const std::string& input) {
+  if (input.find('#') == input.npos || std::filesystem::exists(input)) return;
+  throw Error(ExitCode::usage, input, "is a pattern of a sequence's names: --frames FIRST-LAST says which frames");
+}
+
+}  // namespace
+
 std::vector<Frame> frames_of(const FrameOptions& o, const std::string& input, const std::string& output) {
   std::vector<Frame> frames;
   if (o.frames.empty()) {
+    refuse_pattern(input);
     frames.push_back({std::nullopt, {input, output}});
   } else {
     const FramePattern in(input, "the input");
