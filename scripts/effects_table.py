@@ -21,13 +21,18 @@ ROUNDS = '5'
 HEAD = f"""# Effects that a scene calls for
 
 `scotopic explain` decides for each effect whether a scene calls for it, and says why; `scotopic apply` follows (`--effects auto`,
-the default). An effect that is not called for is not computed:
+the default). An effect that is not called for is not computed. `--effects` takes names instead (`glare,shift,luminance,chroma,detail,noise`;
+`acuity` is an older word for detail), `all`, or `none`; what is named runs whether or not it is called for. Detail, glare and noise
+need pixels per degree: `--ppd` or `--fov`, or what is assumed of a display.
 
 | effect | not needed when |
 |---|---|
 | shift, chroma | the eye is adapted to 5 cd/m² or more, or every pixel is (Lloc = La + Y); pixels above are skipped one by one |
 | luminance | the same, or no pixel's S/P ratio is further than .2 % from white's |
-| acuity | the picture holds no more cycles per degree than the eye resolves (ppd/2 ≤ R(La)) |
+| glare | no pixel is brighter than what the display can show, or no veil comes to 1 % of what is under it ([glare.md](glare.md)) |
+| detail | by contrast: no contrast needs to be 0.005 decades greater than on the display to be seen (from 1 cd/m² up at 4 cycles per degree); bilateral: ppd/2 ≤ R(La), the picture holds no more than the eye resolves |
+| noise | from 0.0029756 cd/m² up; in a still unless `--effects` names it |
+| time | the eye was always in this light, or all that past light has left is within 1 % |
 
 Inside a picture pixels of Lloc ≥ 5 cd/m² are passed over a vector at a time, and pieces of 512 pixels of a row that are so from
 end to end keep the file's very bytes. `scotopic bake` asks the same plan: a look that calls for nothing is a no-op, and
@@ -40,7 +45,7 @@ Eight scenes of blender-data (CC0; the luminance adapted to is assumed, as these
 ns/px: what the pixel-local effects took together on the machine that wrote this, one thread, over samples of the scene; a
 scene that calls for nothing is copied. Made by `scripts/effects_table.py`.
 
-| scene | La, cd/m² | shift | luminance | chroma | acuity | largest dE00 | ns/px | reason |
+| scene | La, cd/m² | shift | luminance | chroma | detail | largest dE00 | ns/px | reason |
 |---|---|---|---|---|---|---|---|---|
 """
 
@@ -56,9 +61,9 @@ def row(name, adaptation, what, report):
     local = [effects[e] for e in ('shift', 'luminance', 'chroma')]
     largest = max(e['largestDifference'] for e in local)
     cost = sum(e['nsPerPixel'] for e in local)
-    reason = effects['shift']['reason'] + '; ' + effects['acuity']['reason']
+    reason = effects['shift']['reason'] + '; ' + effects['detail']['reason']
     return (f"| {name}, {what} | {adaptation} | {share(effects['shift'])} | {share(effects['luminance'])} | "
-            f"{share(effects['chroma'])} | {'yes' if effects['acuity']['runs'] else 'no'} | {largest:.3g} | {cost:.1f} | {reason} |\n")
+            f"{share(effects['chroma'])} | {'yes' if effects['detail']['runs'] else 'no'} | {largest:.3g} | {cost:.1f} | {reason} |\n")
 
 
 SAVES = '## What skipping saves'

@@ -84,6 +84,7 @@ struct ImageSettings {
   SpectralOptions spectral;
   ColourConfig config;
   bool sequence = false;       ///< images are frames of one
+  bool measure = false;        ///< stages measure what they have done, to tell of it
   FrameStages frame_stages;    ///< before the pixel stages, in this order
   FilterStages filter_stages;  ///< after them
   PointStages point_stages;    ///< after those that look around, before the display

@@ -114,5 +114,24 @@ TEST_F(Glare, more_memory_than_allowed_is_refused_before_it_is_taken) {
   EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
 }
 
+TEST_F(Glare, explain_tells_threshold_pixels_veil_and_whose_eye) {
+  // PSF(3 degrees) of an eye of 75 over that of the default, CIE 135/1: 1.82.
+  const test::Outcome outcome = test::run_program(
+      {"explain", scene("lamp.exr", 1e6f), "--adaptation", "0.1", "--ppd", "20", "--age", "75", "--json", "-q"});
+  const std::string reason = report(outcome)["effects"]["glare"]["reason"];
+  for (const char* part : {"cd/m2 in the median pixel", "1 pixels are above", "scatters 1.82 times"})
+    EXPECT_NE(reason.find(part), std::string::npos) << part << ": " << reason;
+}
+
+TEST_F(Glare, explain_advises_a_unit_where_the_picture_speaks_for_another) {
+  const auto advice = [&](float lamp, const char* white) {
+    return report(test::run_program({"explain", scene("lamp.exr", lamp), "--adaptation", "0.01", "--white-luminance", white,
+                                     "--json", "-q"}))["advice"]
+        .get<std::string>();
+  };
+  EXPECT_EQ(advice(1, "0.1"), "");
+  EXPECT_NE(advice(1, "1").find("--white-luminance 0.1 would make them agree"), std::string::npos) << advice(1, "1");
+}
+
 }  // namespace
 }  // namespace scotopic

@@ -8,6 +8,7 @@
 
 #include "adaptation/mesopic.h"
 #include "batch/batch.h"
+#include "stages/limits.h"
 
 namespace scotopic {
 namespace {
@@ -78,6 +79,24 @@ double dark_share(const SceneStatistics& s) {
   return s.finite() ? static_cast<double>(s.photopic.dark()) / static_cast<double>(s.finite()) : 0;
 }
 
+std::string unit_advice(const SceneStatistics& s, double adaptation, double white_luminance) {
+  constexpr double lamps = 100;      // times the log-average: what is so bright and rare shines by itself
+  constexpr double lamp_cdm2 = 1000;  // what the dimmest street lamps have
+  const double mean = s.log_mean_luminance();
+  if (!(mean > 0)) return "";
+  const double stops = std::log2(white_luminance * mean / adaptation);
+  if (std::abs(stops) > 1)
+    return fmt::format("the picture's log-average is {:.3g} cd/m2, {:.1f} stops {} what the eye is adapted to: "
+                       "--white-luminance {:.3g} would make them agree",
+                       white_luminance * mean, std::abs(stops), stops > 0 ? "above" : "below", adaptation / mean);
+  const double bright = s.photopic.quantile(0.999);
+  if (bright > lamps * mean && white_luminance * bright < photopic_limit)
+    return fmt::format("the brightest 0.1 % have {:.3g} cd/m2, too dim for lamps: if they are, --white-luminance {:.3g} "
+                       "gives them {:g}",
+                       white_luminance * bright, lamp_cdm2 / bright, lamp_cdm2);
+  return "";
+}
+
 std::string luminance_text(const SceneStatistics& s, double white_luminance) {
   const std::vector<LuminanceBar> bars = luminance_bars(s, white_luminance);
   double greatest = dark_share(s);
@@ -85,7 +104,7 @@ std::string luminance_text(const SceneStatistics& s, double white_luminance) {
   std::string text = "luminance, cd/m2     share of pixels\n";
   if (dark_share(s) > 0) text += fmt::format("  {:<18} {:5.1f} % {}\n", "0 or below", 100 * dark_share(s), bar(dark_share(s), greatest, 40));
   for (const LuminanceBar& b : bars)
-    text += fmt::format("  {:<18} {:5.1f} % {}\n", fmt::format("{:.2g} to {:.2g}", b.from, 2 * b.from), 100 * b.share,
+    if (b.share > 0) text += fmt::format("  {:<18} {:5.1f} % {}\n", fmt::format("{:.2g} to {:.2g}", b.from, 2 * b.from), 100 * b.share,
                         bar(b.share, greatest, 40));
   return text;
 }

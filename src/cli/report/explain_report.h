@@ -24,6 +24,10 @@ struct LuminanceBar {
 std::vector<LuminanceBar> luminance_bars(const SceneStatistics& statistics, double white_luminance);
 double dark_share(const SceneStatistics& statistics);
 
+/// What white luminance the picture speaks for, where the one used makes its log-average disagree with the
+/// adaptation by more than a stop, or its lamps too dim to be lamps; empty: neither.
+std::string unit_advice(const SceneStatistics& statistics, double adaptation, double white_luminance);
+
 std::string luminance_text(const SceneStatistics& statistics, double white_luminance);
 std::string effects_text(const ScenePlan& plan, const std::vector<double>& costs);
 

@@ -89,6 +89,7 @@ nlohmann::ordered_json result_of(const ExplainOptions& options, const LightNumbe
   for (const LuminanceBar& bar : luminance_bars(statistics, numbers.white_luminance))
     out["histogram"].push_back({{"from", bar.from}, {"to", 2 * bar.from}, {"share", bar.share}});
   out["darkShare"] = dark_share(statistics);
+  out["advice"] = unit_advice(statistics, numbers.adaptation, numbers.white_luminance);
   return out;
 }
 
@@ -116,6 +117,8 @@ int run_explain_image(const ExplainOptions& options, const ImageSettings& settin
   const LightNumbers light = light_of(statistics, numbers);
   if (plot) write_text(*plot, luminance_svg(statistics, numbers.white_luminance, numbers.adaptation));
   if (!console.json()) print(light, numbers, statistics, scene.plan, costs);
+  if (const std::string advice = unit_advice(statistics, numbers.adaptation, numbers.white_luminance); !advice.empty())
+    console.note(options.input + ": " + advice);
   tell_non_finite(scene.non_finite, options.input, "in none of these numbers", console);
   console.result(result_of(options, light, scene, costs));
   return static_cast<int>(ExitCode::done);
@@ -139,6 +142,7 @@ int run_explain(const ExplainOptions& options) {
   const std::vector<Frame> frames = frames_of(options.frames, options.input, "");
   ImageSettings settings = understand(options.scene);
   settings.sequence = frames.front().number.has_value();
+  settings.measure = !settings.sequence;
   add_stages(settings);
   set_threads(options.common.threads);
   check_places(frames, options.frames);
