@@ -1,5 +1,7 @@
 #include "cli/bake/bake_options.h"
 
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "cli/options/values.h"
@@ -10,7 +12,8 @@
 namespace scotopic {
 
 std::size_t edge_of(const BakeOptions& o) {
-  return choice<std::size_t>("--size", o.size, {{"17", 17}, {"33", 33}, {"65", 65}, {"129", 129}});
+  if (o.size.empty()) return 0;
+  return choice<std::size_t>("--size", o.size, {{"auto", 0}, {"17", 17}, {"33", 33}, {"65", 65}, {"129", 129}});
 }
 
 std::vector<double> adaptations_of(const BakeOptions& o) {
@@ -38,6 +41,40 @@ OperatorChoice operator_choice(const OperatorOptions& o) {
   return out;
 }
 
+namespace {
+
+/// "night" or "night:DISPLAY"; the display's space.
+std::string display_of(const BakeOptions& o, const ColourConfig& config) {
+  constexpr std::string_view night = "night";
+  const std::string& text = o.display;
+  if (text.substr(0, night.size()) != night || (text.size() > night.size() && text[night.size()] != ':'))
+    fail_value("--display", text, "night, or night:DISPLAY");
+  const std::string name = text.size() > night.size() + 1 ? text.substr(night.size() + 1) : "";
+  return config.display_space(name.empty() ? config.ocio()->getDefaultDisplay() : name).name;
+}
+
+/// cd/m2; 1000 for displays of HDR.
+double peak_of(const BakeOptions& o, const ColourConfig& config, const std::string& display) {
+  if (!o.peak.empty()) return number_in("--peak", o.peak, 1, 1e5, "a luminance in cd/m2, 1 to 1e5");
+  return std::string(config.ocio()->getColorSpace(display.c_str())->getEncoding()) == "hdr-video" ? 1000 : display_white;
+}
+
+/// The display stage behind the operator, and what its result is encoded for.
+void set_display(LookSpec& spec, const BakeOptions& o, const ColourConfig& config) {
+  if (o.display.empty()) return;
+  if (!spec.encoded)
+    throw Error(ExitCode::usage, "", "--display is of cubes: give --colorspace a log or display encoding (a config's views are "
+                                     "bake --config's)");
+  spec.display = display_of(o, config);
+  const auto encoding = config.encoding(config.space(spec.display));
+  if (!encoding) throw Error(ExitCode::config, config.file(), "'" + spec.display + "' is no encoding of a display's R, G, B");
+  NightDisplayParameters& night = spec.night.emplace();
+  night.peak = peak_of(o, config, spec.display);
+  night.xyz_from_display = encoding->xyz_from_rgb;
+}
+
+}  // namespace
+
 LookSpec spec_for(OperatorChoice choice, const BakeOptions& o, const ColourConfig& config,
                   double adaptation) {
   set_primaries(choice, config);
@@ -52,7 +89,9 @@ LookSpec spec_for(OperatorChoice choice, const BakeOptions& o, const ColourConfi
     // The operator works in the primaries that the look is given.
     spec.parameters.xyz_from_rgb = *linear;
     if (spec.gamut == "working") spec.parameters.xyz_from_gamut = *linear;
+    if (spec.edge == 0) spec.edge = 33;
   }
+  set_display(spec, o, config);
   return spec;
 }
 
@@ -78,20 +117,30 @@ std::vector<LookSpec> specs_for_config(const BakeOptions& o, const ColourConfig&
 void check_error(const BakeOptions& o, const BakedLook& look) {
   if (o.max_error.empty()) return;
   const double limit = number_in("--max-error", o.max_error, 0, 1000, "a CIEDE2000 from 0 to 1000");
-  if (look.error.max <= limit) return;
+  if (look.largest_error() <= limit) return;
   throw Error(ExitCode::check_failed, "",
               fmt::format("{}: largest error {:.3g} exceeds {:.3g}; a larger --size helps", look.chain.name,
-                          look.error.max, limit));
+                          look.largest_error(), limit));
 }
 
 nlohmann::ordered_json json_of(const BakedLook& look) {
-  return {{"look", look.chain.name},        {"adaptation", look.spec.parameters.adaptation},
-          {"size", look.spec.edge},         {"mean", look.error.mean},
-          {"p99", look.error.p99},          {"max", look.error.max},
-          {"worstColour", look.error.worst}};
+  nlohmann::ordered_json out = {{"look", look.chain.name}, {"adaptation", look.spec.parameters.adaptation},
+                                {"size", look.spec.edge},  {"mean", look.error.mean},
+                                {"p99", look.error.p99},   {"max", look.error.max},
+                                {"worstColour", look.error.worst}};
+  if (look.cube) {
+    const BakeError& trilinear = look.cube->rec709.by_reading[1];
+    out["trilinear"] = {{"mean", trilinear.mean}, {"p99", trilinear.p99}, {"max", trilinear.max}};
+  }
+  return out;
 }
 
 std::string said(const BakedLook& look) {
+  if (look.cube) {
+    std::string text = fmt::format("{}, {} nodes a side", look.chain.name, look.spec.edge);
+    for (const std::string& line : error_lines(*look.cube, look.spec)) text += "; " + line;
+    return text;
+  }
   const bool hdr = look.spec.night && look.spec.night->peak > display_white;
   return fmt::format("{}{}: {} to the operator: {}, at ({:.4g}, {:.4g}, {:.4g})", look.chain.name,
                      look.spec.night ? " for a display of " + look.spec.display : "",
@@ -103,7 +152,7 @@ std::string command_of(const BakeOptions& o) {
   std::string text = "scotopic bake";
   for (const std::string& a : o.adaptations) text += " --adaptation " + a;
   if (!o.beside.empty()) text += " --beside " + o.beside;
-  text += " --model " + o.appearance.model + " --size " + o.size +
+  text += " --model " + o.appearance.model + " --size " + (o.size.empty() ? "33" : o.size) +
           (o.into.empty() ? " --config DIR" : " --into CONFIG");
   return o.luts.empty() ? text : text + " --luts LUTS";
 }

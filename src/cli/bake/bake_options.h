@@ -19,7 +19,7 @@ struct BakeOptions {
   std::vector<std::string> adaptations;
   std::string output;
   std::string format;
-  std::string size = "33";
+  std::string size;
   std::string colourspace;
   std::string colour_config;
   std::string new_config;
@@ -31,9 +31,11 @@ struct BakeOptions {
   Limits limits;
   std::string beside;
   std::string max_error;
+  std::string display;
+  std::string peak;
 };
 
-/// Nodes a side.
+/// Nodes a side; 0: what --size auto, and none for encoded values, leave to the error.
 std::size_t edge_of(const BakeOptions& o);
 /// Every luminance asked for, in the order given.
 std::vector<double> adaptations_of(const BakeOptions& o);

@@ -85,6 +85,8 @@ int bake_files(const BakeOptions& o, const ColourConfig& config, const Console& 
     OutputSet::write(*files[i], lut_text(look, format));
     require_read_back(files[i]->open_name(), files[i]->path(), look.chain);
     lines.push_back(files[i]->path() + ": " + said(look));
+    const std::string warning = look.cube ? warning_of(*look.cube) : "";
+    if (!warning.empty()) lines.push_back(files[i]->path() + ": " + warning);
     results.push_back(json_of(look));
     results.back()["output"] = files[i]->path();
   }
@@ -109,6 +111,8 @@ int run_bake(const BakeOptions& o) {
   goes_with(!o.beside.empty(), o.output.empty(), "--beside goes with --config or --into");
   goes_with(!o.colour_config.empty(), !o.output.empty(), "--iconfig goes with -o");
   goes_with(!o.format.empty(), !o.output.empty(), "--format goes with -o");
+  goes_with(!o.display.empty(), !o.output.empty(), "--display goes with -o");
+  goes_with(!o.peak.empty(), !o.display.empty(), "--peak goes with --display");
   (void)edge_of(o);
   (void)adaptations_of(o);
   (void)operator_choice(o.appearance);
@@ -129,6 +133,7 @@ void add_bake(CLI::App& program, Invocation& invocation) {
       "  scotopic bake --adaptation 0.1 -o street.clf\n"
       "  scotopic bake --adaptation 0.1 --size 65 --max-error 0.6 -o street.clf\n"
       "  scotopic bake --adaptation 0.01 --colorspace ACEScct -o moon.cube\n"
+      "  scotopic bake --adaptation 0.1 --colorspace \"ARRI LogC4\" --display \"night:Rec.1886 Rec.709 - Display\" -o night.cube\n"
       "  scotopic bake --adaptation ladder --beside kirk2011 --config looks/\n"
       "  scotopic bake --adaptation 0.1 --adaptation 0.01 --into studio/config.ocio --dry-run");
   const auto add = [&](const char* name, std::string& value, const char* text, const char* kind) {
@@ -137,7 +142,11 @@ void add_bake(CLI::App& program, Invocation& invocation) {
   add("-o,--output", o.output, "The LUT: .clf, .ctf, .spi3d or .cube", "FILE");
   add("--format", o.format,
       "clf, ctf, spi3d, cube; else by the extension. spi3d and cube only for encoded spaces", "NAME");
-  add("--size", o.size, "Nodes a side: 17, 33 (default), 65, 129", "N");
+  add("--size", o.size,
+      "Nodes a side: 17, 33, 65, 129, or auto: 33, and for encoded values 65 where 33 are too few (default)", "N");
+  add("--display", o.display,
+      "night[:DISPLAY]: with --colorspace: as dark as the eye sees it, out come codes of this display of the config", "WHAT");
+  add("--peak", o.peak, "With --display: greatest luminance of the display (default 100; 1000 where it is for HDR)", "CDM2");
   add("--colorspace", o.colourspace, "What the LUT takes and gives; else the config's scene_linear", "NAME");
   add("--iconfig", o.colour_config, "The config that --colorspace is of; else $OCIO, else the program's own",
       "FILE");

@@ -94,6 +94,8 @@ void say(const Inspected& it, const std::string& where) {
   if (it.spec) line += it.spec->encoded ? "; domain 0 to 1, encoded" : "; domain -65504 to 65504, linear";
   if (it.odd.tested > 0)
     line += fmt::format("; {} odd pixels, {} not finite", it.odd.tested, it.odd.not_finite);
+  if (it.cube)
+    for (const std::string& figures : error_lines(*it.cube, *it.spec)) line += "\n  " + figures;
   for (const std::string& problem : it.problems) line += "\n  FAILED: " + problem;
   std::fputs((line + "\n").c_str(), stdout);
 }

@@ -10,6 +10,8 @@ namespace scotopic {
 namespace {
 
 struct ToOcio {
+  OCIO::Interpolation reading;
+
   OCIO::TransformRcPtr operator()(const RangeStep& step) const {
     OCIO::RangeTransformRcPtr range = OCIO::RangeTransform::Create();
     if (std::isfinite(step.low)) range->setMinInValue(step.low), range->setMinOutValue(step.low);
@@ -47,7 +49,7 @@ struct ToOcio {
   OCIO::TransformRcPtr operator()(const Lut3DStep& step) const {
     OCIO::Lut3DTransformRcPtr lut = OCIO::Lut3DTransform::Create(step.edge);
     lut->setFileOutputBitDepth(OCIO::BIT_DEPTH_F32);
-    lut->setInterpolation(OCIO::INTERP_TETRAHEDRAL);
+    lut->setInterpolation(reading);
     std::size_t n = 0;
     for (std::size_t i = 0; i < step.edge; ++i)
       for (std::size_t j = 0; j < step.edge; ++j)
@@ -60,9 +62,9 @@ struct ToOcio {
 
 }  // namespace
 
-OCIO::GroupTransformRcPtr ocio_transform(const Chain& chain) {
+OCIO::GroupTransformRcPtr ocio_transform(const Chain& chain, OCIO::Interpolation reading) {
   OCIO::GroupTransformRcPtr group = OCIO::GroupTransform::Create();
-  for (const Step& step : chain.steps) group->appendTransform(std::visit(ToOcio{}, step));
+  for (const Step& step : chain.steps) group->appendTransform(std::visit(ToOcio{reading}, step));
   return group;
 }
 

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
+#include <vector>
 
+#include "looks/cube/baked_cube.h"
 #include "looks/lut/ladder.h"
 #include "looks/lut/look_chain.h"
 #include "looks/lut/look_matrix.h"
@@ -20,31 +23,6 @@ namespace {
 
 constexpr std::string_view max_marker = "; max ";
 
-Encoding encoding(const RowConverter& converter) {
-  return [converter](float* r, float* g, float* b, std::size_t count) { converter.apply(r, g, b, count); };
-}
-
-void convert(const RowConverter& converter, Colours& c) {
-  converter.apply(c.r.data(), c.g.data(), c.b.data(), c.size());
-}
-
-/// Encoded values all over the unit cube, but for those that stand for less than no light.
-Colours encoded_colours(const RowConverter& to_linear) {
-  Colours all = stop_colours(100000, identity3<double>(), identity3<double>());
-  for (std::vector<float>* plane : {&all.r, &all.g, &all.b})
-    for (float& x : *plane) x = x > 0 ? std::clamp((std::log2(x) + 20) / 28, 0.f, 1.f) : 0.f;
-  Colours linear = all;
-  convert(to_linear, linear);
-  Colours light;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!(linear.r[i] >= 0 && linear.g[i] >= 0 && linear.b[i] >= 0)) continue;
-    light.r.push_back(all.r[i]);
-    light.g.push_back(all.g[i]);
-    light.b.push_back(all.b[i]);
-  }
-  return light;
-}
-
 std::string stated_of_night(const BakeError& e, const LookSpec& spec) {
   return fmt::format("Error against the operator and the display stage, {} of what is shown, {} colours of the working "
                      "gamut, 2^-20 to 2^8 of white: mean {}; 99 % {}{}{}",
@@ -57,8 +35,50 @@ std::string stated(const BakeError& e, const LookSpec& spec) {
   return fmt::format(
       "Error against the operator, CIEDE2000 with each pixel exposed to Y = 0.184, {} colours {}: mean {}; "
       "99 % {}{}{}",
-      e.samples, spec.encoded ? "of encoded values 0 to 1" : "of the working gamut, 2^-20 to 2^8 of white",
-      rounded_text(e.mean, 2), rounded_text(e.p99, 2), max_marker, rounded_text(e.max, 2));
+      e.samples, "of the working gamut, 2^-20 to 2^8 of white", rounded_text(e.mean, 2), rounded_text(e.p99, 2), max_marker, rounded_text(e.max, 2));
+}
+
+/// What comes out of it.
+std::string output_of(const LookSpec& spec) {
+  if (!spec.night) return spec.space;
+  if (spec.encoded) return fmt::format("{}, peak {} cd/m2", spec.display, rounded_text(spec.night->peak, 6));
+  return fmt::format("light of a display ({}, peak {} cd/m2) in {}, 1 stands for {} cd/m2", spec.display,
+                     rounded_text(spec.night->peak, 6), spec.space, display_white);
+}
+
+std::string id_of(const LookSpec& spec) {
+  if (!spec.encoded)
+    return fmt::format("scotopic-{}-{}", spec.night ? night_file_stem(spec) : look_file_stem(spec.parameters), spec.edge);
+  return fmt::format("scotopic-{}{}-{}-encoded", spec.night ? "night-" : "", look_file_stem(spec.parameters), spec.edge);
+}
+
+/// What the file says of itself.
+void describe(BakedLook& look, const std::string& version) {
+  const LookSpec& spec = look.spec;
+  const AppearanceParameters& p = spec.parameters;
+  Chain& chain = look.chain;
+  chain.name = spec.night ? night_name(p.adaptation) : look_name(p);
+  chain.id = id_of(spec);
+  chain.input = fmt::format("{}, 1 stands for {} cd/m2", spec.space, rounded_text(p.white_luminance, 6));
+  if (spec.encoded) chain.input = fmt::format("codes of {}, light 1 stands for {} cd/m2", spec.space, rounded_text(p.white_luminance, 6));
+  chain.output = output_of(spec);
+  chain.descriptions = {
+      fmt::format("What an eye adapted to {} cd/m2 sees, by the scotopic appearance operator {}, model {}",
+                  adaptation_text(p.adaptation), version, name_of(p.model)),
+      "Forward only: the operator has no inverse. Alpha is not touched"};
+  for (const std::string& line : look.cube ? error_lines(*look.cube, spec) : std::vector{stated(look.error, spec)})
+    chain.descriptions.push_back(line);
+  chain.descriptions.push_back(spec_text(spec));
+  chain.info = {{"Application", "scotopic"}, {"Version", version}};
+}
+
+BakedCube cube_of(LookSpec spec, const ColourConfig& config) {
+  if (spec.edge != 0) return bake_cube(spec, config);
+  spec.edge = 33;
+  BakedCube small = bake_cube(spec, config);
+  if (!wants_larger(small.error)) return small;
+  spec.edge = 65;
+  return bake_cube(spec, config);
 }
 
 }  // namespace
@@ -84,36 +104,16 @@ std::optional<Matrix3<double>> linear_space_matrix(const ColourConfig& config, c
   return known ? xyz_d65_from_rgb(known->primaries) : xyz;
 }
 
-BakeError measure_encoded(const LookSpec& spec, const ColourConfig& config,
-                          const OCIO::ConstCPUProcessorRcPtr& processor) {
-  const RowConverter to = config.to_working(config.space(spec.space));
-  const RowConverter from = config.from_working(config.space(spec.space));
-  const Colours encoded = encoded_colours(to);
-  Colours in = encoded;
-  convert(to, in);
-  // What the encoding itself cannot hold is not the LUT's fault.
-  Colours expected = exact(spec.parameters, in);
-  convert(from, expected);
-  for (auto* plane : {&expected.r, &expected.g, &expected.b})
-    for (float& x : *plane) x = std::clamp(x, 0.f, 1.f);
-  convert(to, expected);
-  Colours got = encoded;
-  apply(processor, got);
-  convert(to, got);
-  Comparison comparison(spec.parameters.xyz_from_rgb);
-  comparison.add(in, expected, got);
-  return comparison.result();
-}
-
 BakedLook bake_look(const LookSpec& spec, const ColourConfig& config, const std::string& version) {
   BakedLook look{spec, {}, {}};
   Chain& chain = look.chain;
   const OCIO::ConstConfigRcPtr raw = OCIO::Config::CreateRaw();
   if (spec.encoded) {
-    const ColourSpace space = config.space(spec.space);
-    chain = encoded_lut(spec.parameters, spec.edge, encoding(config.to_working(space)),
-                        encoding(config.from_working(space)));
-    look.error = measure_encoded(spec, config, cpu_processor(ocio_transform(chain), raw));
+    BakedCube cube = cube_of(spec, config);
+    look.spec.edge = cube.edge;
+    chain = std::move(cube.chain);
+    look.error = cube.error.rec709.by_reading[0];
+    look.cube = std::move(cube.error);
   } else if (spec.night) {
     chain = night_chain(spec.parameters, *spec.night, spec.edge);
     look.error = measure_night(spec.parameters, *spec.night, cpu_processor(ocio_transform(chain), raw),
@@ -129,21 +129,12 @@ BakedLook bake_look(const LookSpec& spec, const ColourConfig& config, const std:
     look.error = measure_bake(spec.parameters, cpu_processor(ocio_transform(chain), raw),
                               spec.parameters.xyz_from_rgb);
   }
-  const AppearanceParameters& p = spec.parameters;
-  chain.name = spec.night ? night_name(p.adaptation) : look_name(p);
-  chain.id = fmt::format("scotopic-{}-{}{}", spec.night ? night_file_stem(spec) : look_file_stem(p), spec.edge,
-                         spec.encoded ? "-encoded" : "");
-  chain.input = fmt::format("{}, 1 stands for {} cd/m2", spec.space, rounded_text(p.white_luminance, 6));
-  chain.output = spec.night ? fmt::format("light of a display ({}, peak {} cd/m2) in {}, 1 stands for {} cd/m2", spec.display,
-                                          rounded_text(spec.night->peak, 6), spec.space, display_white)
-                            : spec.space;
-  chain.descriptions = {
-      fmt::format("What an eye adapted to {} cd/m2 sees, by the scotopic appearance operator {}, model {}",
-                  adaptation_text(p.adaptation), version, name_of(p.model)),
-      "Forward only: the operator has no inverse. Alpha is not touched", stated(look.error, spec),
-      spec_text(spec)};
-  chain.info = {{"Application", "scotopic"}, {"Version", version}};
+  describe(look, version);
   return look;
+}
+
+double BakedLook::largest_error() const noexcept {
+  return cube ? std::max(cube->rec709.by_reading[0].max, cube->rec709.by_reading[1].max) : error.max;
 }
 
 std::optional<double> stated_max(std::string_view text) {

@@ -68,7 +68,6 @@ class Nodes {
     for (std::vector<float>* plane : {&r_, &g_, &b_})
       for (float& x : *plane) x = static_cast<float>(x / scale);
   }
-  void convert(const Encoding& encoding) { encoding(r_.data(), g_.data(), b_.data(), r_.size()); }
   Vec3<double> operator[](std::size_t n) const { return {r_[n], g_[n], b_[n]}; }
   std::size_t size() const { return r_.size(); }
 
@@ -186,22 +185,6 @@ Chain night_chain(const AppearanceParameters& p, const NightDisplayParameters& d
   // White of luminance L has a level of 2 L (see LookCoordinates).
   const Axes axes(p, std::log2(2 * p.white_luminance / scale));
   return chain_of(p, axes, edge, &shown, scale * shown.peak / display_white);
-}
-
-Chain encoded_lut(const AppearanceParameters& p, std::size_t edge, const Encoding& linear_from_encoded,
-                  const Encoding& encoded_from_linear) {
-  Nodes nodes(edge);
-  nodes.fill([](const Vec3<double>& t) { return t; });
-  nodes.convert(linear_from_encoded);
-  nodes.apply(p);
-  nodes.convert(encoded_from_linear);
-  Lut3DStep lut{edge, std::vector<double>(3 * nodes.size()), 7};
-  for (std::size_t n = 0; n < nodes.size(); ++n)
-    for (std::size_t c = 0; c < 3; ++c) lut.values[3 * n + c] = std::clamp(nodes[n][c], 0.0, 1.0);
-  Chain chain;
-  chain.steps = {RangeStep{0, 1}, std::move(lut)};
-  round_as_written(chain);
-  return chain;
 }
 
 }  // namespace scotopic

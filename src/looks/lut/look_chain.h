@@ -1,7 +1,6 @@
 // The appearance operator as a chain of CLF operations: what a look is made of.
 #pragma once
 
-#include <functional>
 #include <span>
 
 #include "stages/display/night_display.h"
@@ -35,13 +34,5 @@ NightDisplayParameters of_scene(const AppearanceParameters& parameters, NightDis
 
 /// cd/m2 that 1 of a display's light stands for, as OpenColorIO's displays have it.
 inline constexpr double display_white = 100;
-
-/// A change of encoding, in place: planar RGB.
-using Encoding = std::function<void(float* r, float* g, float* b, std::size_t count)>;
-
-/// One 3D LUT over encoded RGB 0..1, for formats that hold nothing else. Only for log or display encodings:
-/// evenly spaced nodes of linear light miss the dark.
-Chain encoded_lut(const AppearanceParameters& parameters, std::size_t edge,
-                  const Encoding& linear_from_encoded, const Encoding& encoded_from_linear);
 
 }  // namespace scotopic

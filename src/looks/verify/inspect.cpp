@@ -44,7 +44,10 @@ void judge(Inspected& it) {
 void measure(Inspected& it, const OCIO::ConstCPUProcessorRcPtr& processor, const ColourConfig& config) {
   it.odd = odd_pixels(processor);
   const AppearanceParameters& p = it.spec->parameters;
-  it.error = it.spec->encoded ? measure_encoded(*it.spec, config, processor)
+  if (it.spec->encoded)
+    it.cube = measure_cube(*it.spec, config,
+                           {lut_processor(it.file, OCIO::INTERP_TETRAHEDRAL), lut_processor(it.file, OCIO::INTERP_LINEAR)});
+  it.error = it.cube          ? it.cube->rec709.by_reading[0]
              : it.spec->night ? measure_night(p, *it.spec->night, processor, p.xyz_from_rgb)
                               : measure_bake(p, processor, p.xyz_from_rgb);
   judge(it);
@@ -144,10 +147,10 @@ Inspected inspect_lut(const std::string& file, const ColourConfig& config) {
   return it;
 }
 
-OCIO::ConstCPUProcessorRcPtr lut_processor(const std::string& file) {
+OCIO::ConstCPUProcessorRcPtr lut_processor(const std::string& file, OCIO::Interpolation reading) {
   OCIO::FileTransformRcPtr transform = OCIO::FileTransform::Create();
   transform->setSrc(fs::absolute(file).c_str());
-  transform->setInterpolation(OCIO::INTERP_TETRAHEDRAL);
+  transform->setInterpolation(reading);
   try {
     return cpu_processor(transform, OCIO::Config::CreateRaw());
   } catch (const OCIO::Exception& e) {

@@ -16,7 +16,8 @@ struct Inspected {
   std::string file;  ///< of the LUT; empty for looks without one
   std::optional<LookSpec> spec;
   std::optional<BakeError> error;
-  std::optional<double> stated;  ///< the largest error that the file admits to
+  std::optional<CubeError> cube;  ///< of encoded ones
+  std::optional<double> stated;   ///< the largest error that the file admits to
   OddPixels odd;
   std::vector<std::string> problems;  ///< empty: sound
 };
@@ -33,7 +34,8 @@ std::vector<Inspected> inspect_config(const ColourConfig& config, const std::str
 OCIO_NAMESPACE::ConstCPUProcessorRcPtr look_processor(const ColourConfig& config, const std::string& look);
 
 /// What runs a LUT file. Error(config) if it is none.
-OCIO_NAMESPACE::ConstCPUProcessorRcPtr lut_processor(const std::string& file);
+OCIO_NAMESPACE::ConstCPUProcessorRcPtr lut_processor(
+    const std::string& file, OCIO_NAMESPACE::Interpolation reading = OCIO_NAMESPACE::INTERP_TETRAHEDRAL);
 
 /// Whole text of a file of no more than limits.lut bytes; Error(input).
 std::string text_of(const std::string& file, const Limits& limits = {});

@@ -23,6 +23,7 @@ namespace {
 /// quasirandom sequences"): evenly spread, and the same everywhere.
 class EvenPoints {
  public:
+  explicit EvenPoints(double start) : at_{start, start, start, start} {}
   Vec3<double> next(double& fourth) {
     // 1.1673...: positive root of x^5 = x + 1.
     constexpr double g = 1.1673039782614187;
@@ -33,7 +34,7 @@ class EvenPoints {
   }
 
  private:
-  double at_[4] = {0.5, 0.5, 0.5, 0.5};
+  double at_[4];
 };
 
 /// Negative beyond what float makes of a colour on the border.
@@ -46,18 +47,18 @@ bool outside(const Vec3<double>& rgb) {
 }  // namespace
 
 Colours stop_colours(std::size_t count, const Matrix3<double>& xyz_from_gamut,
-                     const Matrix3<double>& xyz_from_rgb) {
+                     const Matrix3<double>& xyz_from_rgb, const StopRange& range) {
   const Matrix3<double> rgb_from_gamut = inverse(xyz_from_rgb) * xyz_from_gamut;
   const bool same = xyz_from_gamut.rows == xyz_from_rgb.rows;
   Colours colours;
-  EvenPoints points;
+  EvenPoints points(range.start);
   for (std::size_t i = 0; i < count; ++i) {
     double u;
     Vec3<double> c = points.next(u);
     if (i % 4 == 2)
       for (double& x : c) x = x * x * x;
     if (i % 4 == 3) c[i / 4 % 3] = 0;
-    const double level = std::exp2(-20 + 28 * u) / std::max({c[0], c[1], c[2], 1e-9});
+    const double level = std::exp2(range.low + (range.high - range.low) * u) / std::max({c[0], c[1], c[2], 1e-9});
     Vec3<double> rgb = {level * c[0], level * c[1], level * c[2]};
     if (!same) rgb = rgb_from_gamut * rgb;
     colours.r.push_back(static_cast<float>(rgb[0]));

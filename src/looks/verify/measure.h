@@ -20,11 +20,17 @@ struct Colours {
   std::size_t size() const { return r.size(); }
 };
 
-/// The same `count` colours on every machine: brightness evenly over the 28 stops from 2^-20 to 2^8 of white,
+/// Stops of white that colours lie between, and where the sequence of their mixtures begins (0 to 1).
+struct StopRange {
+  double low = -20, high = 8;
+  double start = 0.5;
+};
+
+/// The same `count` colours on every machine: brightness evenly over the stops of `range`,
 /// in the gamut with matrix xyz_from_gamut, converted to xyz_from_rgb. A quarter each: even over the faces of
 /// the RGB cube twice, strong colours (components cubed), and colours on the gamut's border.
 Colours stop_colours(std::size_t count, const Matrix3<double>& xyz_from_gamut,
-                     const Matrix3<double>& xyz_from_rgb);
+                     const Matrix3<double>& xyz_from_rgb, const StopRange& range = {});
 
 /// CIEDE2000 at equal exposure (appearance/colour_difference.h) between what should be and what is.
 struct BakeError {

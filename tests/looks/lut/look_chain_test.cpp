@@ -162,30 +162,5 @@ TEST(LookChain, the_3d_part_does_not_depend_on_the_unit) {
   EXPECT_GT(difference, 0.02);
 }
 
-TEST(EncodedLut, a_cube_over_a_log_encoding_follows_the_operator) {
-  const AppearanceParameters p = adapted_to(0.1);
-  // Stops over the 16 below 16 times white: evenly spaced in light's logarithm.
-  const Encoding decode = [](float* r, float* g, float* b, std::size_t n) {
-    for (float* plane : {r, g, b})
-      for (std::size_t i = 0; i < n; ++i) plane[i] = std::exp2(16 * plane[i] - 12);
-  };
-  const Encoding encode = [](float* r, float* g, float* b, std::size_t n) {
-    for (float* plane : {r, g, b})
-      for (std::size_t i = 0; i < n; ++i) plane[i] = (std::log2(std::max(plane[i], 1e-9f)) + 12) / 16;
-  };
-  const auto processor = processor_of(encoded_lut(p, 65, decode, encode));
-  const AppearanceReference exact(p);
-  for (const Vec3<double>& code : {Vec3<double>{.5, .5, .5}, {.7, .6, .5}, {.4, .55, .6}}) {
-    float light[3] = {static_cast<float>(code[0]), static_cast<float>(code[1]), static_cast<float>(code[2])};
-    decode(&light[0], &light[1], &light[2], 1);
-    const Vec3<double> got = through(processor, code);
-    float seen[3] = {static_cast<float>(got[0]), static_cast<float>(got[1]), static_cast<float>(got[2])};
-    decode(&seen[0], &seen[1], &seen[2], 1);
-    EXPECT_LE(exposed_difference(p.xyz_from_rgb * exact({{light[0], light[1], light[2]}}),
-                                 p.xyz_from_rgb * Vec3<double>{seen[0], seen[1], seen[2]}),
-              0.5);
-  }
-}
-
 }  // namespace
 }  // namespace scotopic
