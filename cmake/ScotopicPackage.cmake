@@ -1,5 +1,5 @@
-# Debian packages, by `cpack -G DEB` in the build folder: scotopic (program, looks) and libscotopic-dev
-# (headers, static libraries, CMake and pkg-config files). tests/package takes them apart and runs them.
+# Debian packages, by `cpack -G DEB` in the build folder: scotopic (program, looks), libscotopic-dev
+# (headers, static libraries, CMake and pkg-config files), and where they are built python3-scotopic. tests/package takes them apart and runs them.
 set(CPACK_PACKAGE_NAME scotopic)
 set(CPACK_PACKAGE_CONTACT "The Scotopic authors <maintainers@scotopic.invalid>")
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
@@ -33,4 +33,21 @@ libopenimageio-dev (>= 2.4), libopenexr-dev (>= 3.1), liblcms2-dev, libhwy-dev, 
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION
 "Development files: static libraries, headers, and files for CMake and pkg-config, to use the
 operator and its looks in other programs.")
+
+if(TARGET scotopic_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-scotopic)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  # A module is for one version of the interpreter: the next is one too many.
+  string(REGEX REPLACE "^([0-9]+)[.].*" "\\1" python_major ${SCOTOPIC_PYTHON_VERSION})
+  string(REGEX REPLACE "^[0-9]+[.]" "" python_minor ${SCOTOPIC_PYTHON_VERSION})
+  math(EXPR python_minor "${python_minor} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "python3 (>= ${SCOTOPIC_PYTHON_VERSION}), python3 (<< ${python_major}.${python_minor}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "scotopic, python3-openimageio")
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+"Module for Python: the operator on numpy arrays, byte for byte the program's results;
+receptors, mesopic photometry, thresholds and adaptation in time.")
+endif()
 include(CPack)

@@ -1,5 +1,7 @@
 #include "color/colour_config.h"
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -167,13 +169,29 @@ ColourConfig ColourConfig::in_force(const std::string& file, const Limits& limit
 
 namespace {
 
-/// Beside an installed program, where packages put it, beside a build folder; empty: nowhere.
-std::string shipped_config() {
+/// Of the program, and of the module that holds this code where a host has loaded one.
+std::vector<fs::path> own_folders() {
+  static const char here = 0;
   std::error_code none;
-  const fs::path program = fs::read_symlink("/proc/self/exe", none).parent_path();
-  for (const fs::path& file : {program / "../share/scotopic/ocio_config/config.ocio",
-                               fs::path(SCOTOPIC_SHARE_FOLDER "/ocio_config/config.ocio"),
-                               program / "../../../../ocio_config/config.ocio"})
+  std::vector<fs::path> out = {fs::read_symlink("/proc/self/exe", none).parent_path()};
+  Dl_info module = {};
+  if (dladdr(&here, &module) != 0 && module.dli_fname)
+    out.push_back(fs::absolute(module.dli_fname, none).parent_path());
+  return out;
+}
+
+/// Beside an installed program or module, where packages put it, beside a build folder; empty: nowhere.
+std::string shipped_config() {
+  constexpr const char* below = "scotopic/ocio_config/config.ocio";
+  std::vector<fs::path> files;
+  for (const fs::path& folder : own_folders()) {
+    files.push_back(folder / "../share" / below);
+    files.push_back(folder / "../../../../share" / below);
+    files.push_back(folder / "../../../../ocio_config/config.ocio");
+  }
+  files.insert(files.begin() + 1, SCOTOPIC_SHARE_FOLDER "/ocio_config/config.ocio");
+  std::error_code none;
+  for (const fs::path& file : files)
     if (fs::is_regular_file(file, none)) return file.lexically_normal().string();
   return "";
 }

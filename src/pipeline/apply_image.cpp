@@ -13,9 +13,8 @@ std::int64_t rows_to_write(const ImageLayout& layout) {
   return rows;
 }
 
-NonFinitePixels apply_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-                            const ImageStages& stages, OutputFile& file, const Progress& progress) {
-  const std::unique_ptr<PixelSink> sink = open_sink(layout.format, file, source, layout.outputs);
+NonFinitePixels write_pictures(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+                               const ImageStages& stages, PixelSink& sink, const Progress& progress) {
   const std::int64_t total = rows_to_write(layout);
   std::int64_t done = 0;
   NonFinitePixels non_finite;
@@ -23,7 +22,7 @@ NonFinitePixels apply_image(PixelSource& source, const ImageLayout& layout, cons
   Band out;
   for (std::size_t i = 0; i < layout.outputs.size(); ++i) {
     if (layout.outputs[i].copy) {
-      sink->copy(i);
+      sink.copy(i);
       continue;
     }
     const PictureRun run(source, layout, config, stages, layout.outputs[i]);
@@ -32,27 +31,34 @@ NonFinitePixels apply_image(PixelSource& source, const ImageLayout& layout, cons
     const bool descending = picture.descending && layout.format == "openexr";
     std::deque<AcuityRows> filters = run.filter_rows(descending, true);
     const auto write = [&](const Band& seen) {
-      sink->write(i, seen);
+      sink.write(i, seen);
       done += seen.rows;
       if (progress) progress(done, total);
     };
     each_band(picture, descending, [&](int y0, int rows) {
       source.read(layout.outputs[i].source, y0, rows, in);
       if (!filters.empty()) {
-        run.run(std::move(in), filters, out, sink->interleaved(), write);
+        run.run(std::move(in), filters, out, sink.interleaved(), write);
         in = Band();
       } else {
-        run.run(in, out, sink->interleaved());
+        run.run(in, out, sink.interleaved());
         write(out);
       }
     });
     non_finite.add(run.non_finite());
   }
   if (stages.non_finite == NonFinite::error) refuse(non_finite, source.file());
-  sink->finish();
+  sink.finish();
   source.require_unchanged();
-  file.commit();
   return non_finite;
+}
+
+NonFinitePixels apply_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+                            const ImageStages& stages, OutputFile& file, const Progress& progress) {
+  const std::unique_ptr<PixelSink> sink = open_sink(layout.format, file, source, layout.outputs);
+  const NonFinitePixels found = write_pictures(source, layout, config, stages, *sink, progress);
+  file.commit();
+  return found;
 }
 
 }  // namespace scotopic

@@ -110,15 +110,32 @@ void check_filter_memory(const SpatialFilter& filter, const OpenImage& image, co
   }
 }
 
+/// From file to file.
+class FileEnds : public ImageEnds {
+ public:
+  explicit FileEnds(const ImageJob& job) : job_(job), file_(job.output) {}
+  OpenImage open(const ImageSettings& settings, const Notes& notes) override {
+    return open_image(settings, job_.input, job_.output, notes);
+  }
+  NonFinitePixels write(OpenImage& image, const ColourConfig& config, const ImageStages& stages,
+                        const Progress& progress) override {
+    return apply_image(*image.source, image.layout, config, stages, file_, progress);
+  }
+
+ private:
+  const ImageJob& job_;
+  OutputFile file_;
+};
+
 /// The stages of one image, made for its scene.
 class ImageRun {
  public:
-  ImageRun(const ImageJob& job, const ImageSettings& settings, EvaluatorSource& evaluators,
+  ImageRun(const ImageJob& job, ImageEnds& ends, const ImageSettings& settings, EvaluatorSource& evaluators,
            const Notes& notes)
-      : job_(job), settings_(settings), evaluators_(evaluators), notes_(notes), file_(job.output) {}
+      : job_(job), ends_(ends), settings_(settings), evaluators_(evaluators), notes_(notes) {}
 
   ImageReport run() {
-    OpenImage image = open_image(settings_, job_.input, job_.output, notes_);
+    OpenImage image = ends_.open(settings_, notes_);
     follow_track(job_, image.known);
     set_moment(image);
     refuse_idle_options(settings_.display, image.layout);
@@ -126,8 +143,7 @@ class ImageRun {
     FramesOfImage frames(image, settings_, job_.moment, notes_);
     look(image, frames);
     make_stages(image, frames);
-    report_.non_finite =
-        apply_image(*image.source, image.layout, settings_.config, stages_, file_, job_.progress);
+    report_.non_finite = ends_.write(image, settings_.config, stages_, job_.progress);
     describe(image);
     return std::move(report_);
   }
@@ -235,10 +251,10 @@ class ImageRun {
   }
 
   ImageJob job_;
+  ImageEnds& ends_;
   const ImageSettings& settings_;
   EvaluatorSource& evaluators_;
   const Notes& notes_;
-  OutputFile file_;
   ImageStages stages_;
   StageScene scene_;
   std::vector<std::unique_ptr<SpatialFilter>> filters_;
@@ -252,13 +268,24 @@ class ImageRun {
 
 ImageReport run_image(const ImageJob& job, const ImageSettings& settings, EvaluatorSource& evaluators,
                       const Notes& notes) {
-  return ImageRun(job, settings, evaluators, notes).run();
+  FileEnds ends(job);
+  return run_image(job, ends, settings, evaluators, notes);
 }
 
-SceneReport read_scene(const ImageJob& asked, const ImageSettings& settings, Statistics wanted,
+ImageReport run_image(const ImageJob& job, ImageEnds& ends, const ImageSettings& settings,
+                      EvaluatorSource& evaluators, const Notes& notes) {
+  return ImageRun(job, ends, settings, evaluators, notes).run();
+}
+
+SceneReport read_scene(const ImageJob& job, const ImageSettings& settings, Statistics wanted,
                        const Notes& notes) {
-  ImageJob job = asked;
   OpenImage image = open_to_read(settings, job.input, notes);
+  return read_scene(image, job, settings, wanted, notes);
+}
+
+SceneReport read_scene(OpenImage& image, const ImageJob& asked, const ImageSettings& settings,
+                       Statistics wanted, const Notes& notes) {
+  ImageJob job = asked;
   follow_track(job, image.known);
   SceneReport scene;
   scene.frame_rate = frame_rate(settings.choice.stages, *image.source).rate;

@@ -10,6 +10,7 @@
 #include "pipeline/evaluator.h"
 #include "pipeline/notes.h"
 #include "pipeline/scene/angular_resolution.h"
+#include "pipeline/scene/open_image.h"
 #include "pipeline/scene/scene_numbers.h"
 #include "pipeline/settings.h"
 #include "pipeline/stages/display_stages.h"
@@ -61,11 +62,26 @@ struct ImageReport {
   std::optional<NightReport> night;
 };
 
+/// Where an image comes from and goes to, if not from file to file.
+class ImageEnds {
+ public:
+  virtual ~ImageEnds() = default;
+  /// Called once, first.
+  virtual OpenImage open(const ImageSettings& settings, const Notes& notes) = 0;
+  /// Runs the stages; called once, last. See apply_image().
+  virtual NonFinitePixels write(OpenImage& image, const ColourConfig& config, const ImageStages& stages,
+                                const Progress& progress) = 0;
+};
+
 /// Writes one image, whole or not at all. Any number of threads at once. The input is decoded once to be
 /// written, and once before where the adaptation is metered, frame stages run, or a tone map measures its
 /// range. Throws Error.
 ImageReport run_image(const ImageJob& job, const ImageSettings& settings, EvaluatorSource& evaluators,
                       const Notes& notes);
+
+/// The same between other ends; the job's names are those of reports.
+ImageReport run_image(const ImageJob& job, ImageEnds& ends, const ImageSettings& settings,
+                      EvaluatorSource& evaluators, const Notes& notes);
 
 /// Which statistics are wanted of an image that is only read.
 enum class Statistics { of_all_pixels, where_needed };
@@ -73,6 +89,10 @@ enum class Statistics { of_all_pixels, where_needed };
 /// Opens an image to read it, meters it and plans; decodes it once at most.
 SceneReport read_scene(const ImageJob& job, const ImageSettings& settings, Statistics wanted,
                        const Notes& notes);
+
+/// The same of an image that is open; the job's input is not looked at.
+SceneReport read_scene(OpenImage& image, const ImageJob& job, const ImageSettings& settings,
+                       Statistics wanted, const Notes& notes);
 
 /// Frames a second, --fps, else the file's framesPerSecond, else 24; and which of these, in words.
 struct FrameRate {

@@ -57,6 +57,8 @@ std::string command_of(const BakeOptions& o);
 /// LUTs are read back before any of them takes its place: the baked ones against what was measured.
 void add_luts(OutputSet& files, const std::string& folder, const LookSet& set);
 
+/// bake -o FILE, for each adaptation; what --json says of the LUTs.
+nlohmann::ordered_json bake_luts(const BakeOptions& o, const Console& console);
 /// bake --config DIR.
 int bake_config(const BakeOptions& o, const Console& console);
 /// bake --into CONFIG.

@@ -1,43 +1,30 @@
 // scotopic apply: an image as the dark-adapted eye sees it.
 #include <fmt/format.h>
 
-#include "cli/options/display_options.h"
-#include "cli/options/icc_options.h"
 #include "cli/report/image_report.h"
 #include "cli/program.h"
 #include "cli/sequence/recipe.h"
 #include "cli/sequence/run_frames.h"
-#include "cli/scene/scene_settings.h"
+#include "cli/scene/apply_settings.h"
 #include "cli/sequence/shot.h"
-#include "cli/options/values.h"
-#include "cli/scene/precision_options.h"
 #include "pipeline/run.h"
 #include "pipeline/stages/display_stages.h"
 
 namespace scotopic {
 namespace {
 
-struct ApplyOptions {
+struct ApplyWords {
   std::string input;
   std::string output;
-  SceneOptions scene;
+  ApplyOptions stages;
   std::string adaptation_from;
-  PrecisionOptions precision;
-  DisplayOptions display;
-  IccOptions icc;
-  std::string non_finite = "keep";
   FrameOptions frames;
   CommonOptions common;
 };
 
-NonFinite non_finite_policy(const std::string& text) {
-  return choice<NonFinite>("--nonfinite", text,
-                           {{"keep", NonFinite::keep}, {"clean", NonFinite::clean}, {"error", NonFinite::error}});
-}
-
 class ApplyJob : public FrameJob {
  public:
-  ApplyJob(const ApplyOptions& options, const Console& console);
+  ApplyJob(const ApplyOptions& options, bool sequence, const Console& console);
 
   ImageSettings& scene() { return settings_; }
   void follow(std::optional<AdaptationTrack> track) { track_ = std::move(track); }
@@ -53,24 +40,9 @@ class ApplyJob : public FrameJob {
   std::optional<AdaptationTrack> track_;
 };
 
-/// In the order in which faults are to be told.
-ImageSettings settings_of(const ApplyOptions& o) {
-  const NonFinite non_finite = non_finite_policy(o.non_finite);
-  ImageRequest request = understand(o.scene.image);
-  ImageSettings out = understand(o.scene);
-  DisplayChoice display = understand(o.display, out.choice.stages, request);
-  understand(o.icc, request);
-  if (request.view) out.config = out.config.holding(*request.view);
-  out.request = std::move(request);
-  out.display = std::move(display);
-  out.non_finite = non_finite;
-  out.sequence = !o.frames.frames.empty();
-  add_stages(out);
-  return out;
-}
-
-ApplyJob::ApplyJob(const ApplyOptions& o, const Console& console)
-    : evaluators_(understand(o.precision)), settings_(settings_of(o)) {
+ApplyJob::ApplyJob(const ApplyOptions& o, bool sequence, const Console& console)
+    : evaluators_(understand(o.precision)), settings_(understand(o)) {
+  settings_.sequence = sequence;
   check_view(settings_.request, settings_.config, console.notes());
   if (const std::string idle = without_effect(o.scene.appearance, settings_.choice); !idle.empty())
     console.note("without effect under --model safko2019: " + idle);
@@ -92,11 +64,11 @@ nlohmann::ordered_json ApplyJob::run(const ImageJob& asked, const Console& conso
   return image_json(report);
 }
 
-int run_apply(const ApplyOptions& options) {
+int run_apply(const ApplyWords& options) {
   const Console console(options.common);
   (void)output_format(options.output);
   const std::vector<Frame> frames = frames_of(options.frames, options.input, options.output);
-  ApplyJob job(options, console);
+  ApplyJob job(options.stages, !options.frames.frames.empty(), console);
   set_threads(options.common.threads);
   check_shot(options.adaptation_from, job.scene().choice, frames);
   check_places(frames, options.frames);
@@ -109,7 +81,7 @@ int run_apply(const ApplyOptions& options) {
 }  // namespace
 
 void add_apply(CLI::App& program, Invocation& invocation) {
-  const auto options = std::make_shared<ApplyOptions>();
+  const auto options = std::make_shared<ApplyWords>();
   CLI::App& verb = *program.add_subcommand("apply", "An image as the dark-adapted eye sees it");
   verb.footer(
       "Examples:\n"
@@ -121,19 +93,15 @@ void add_apply(CLI::App& program, Invocation& invocation) {
   verb.add_option("-o,--output", options->output, "EXR, TIFF, PNG or JPEG, by its extension")
       ->required()
       ->type_name("OUT");
-  SceneOptions& scene = options->scene;
+  SceneOptions& scene = options->stages.scene;
   scene.appearance.stages.table = invocation.stages;
   add_scene_options(verb, scene);
   add_shot_options(verb, options->adaptation_from);
   add_frame_options(verb, options->frames);
-  add_precision_options(verb, options->precision);
-  add_band_options(verb, scene.bands);
-  add_display_options(verb, options->display);
-  verb.add_option("--nonfinite", options->non_finite, "NaN and infinite pixels: keep, clean (to 0), or error")
-      ->type_name("WHAT");
+  add_apply_options(verb, options->stages);
   add_input_options(verb, scene.image);
   add_output_options(verb, scene.image);
-  add_icc_options(verb, options->icc);
+  add_icc_options(verb, options->stages.icc);
   add_common_options(verb, options->common);
   on_command_line(verb, invocation, options, run_apply);
 }

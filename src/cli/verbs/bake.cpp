@@ -65,7 +65,7 @@ std::string numbered(const std::string& output, double adaptation) {
       .string();
 }
 
-int bake_files(const BakeOptions& o, const ColourConfig& config, const Console& console) {
+nlohmann::ordered_json bake_files(const BakeOptions& o, const ColourConfig& config, const Console& console) {
   const Format format = format_of(o);
   const std::vector<double> adaptations = adaptations_of(o);
   const OperatorChoice choice = operator_choice(o.appearance);
@@ -92,8 +92,7 @@ int bake_files(const BakeOptions& o, const ColourConfig& config, const Console& 
   }
   set.commit();
   for (const std::string& line : lines) console.note(line);
-  console.result({{"luts", results}});
-  return static_cast<int>(ExitCode::done);
+  return results;
 }
 
 int run_bake(const BakeOptions& o) {
@@ -118,11 +117,17 @@ int run_bake(const BakeOptions& o) {
   (void)operator_choice(o.appearance);
   if (!o.new_config.empty()) return bake_config(o, console);
   if (!o.into.empty()) return bake_into(o, console);
-  (void)format_of(o);
-  return bake_files(o, ColourConfig::in_force(o.colour_config, o.limits, working_primaries(o.working_primaries)), console);
+  console.result({{"luts", bake_luts(o, console)}});
+  return static_cast<int>(ExitCode::done);
 }
 
 }  // namespace
+
+nlohmann::ordered_json bake_luts(const BakeOptions& o, const Console& console) {
+  (void)format_of(o);
+  return bake_files(
+      o, ColourConfig::in_force(o.colour_config, o.limits, working_primaries(o.working_primaries)), console);
+}
 
 void add_bake(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<BakeOptions>();

@@ -4,10 +4,10 @@
 #include <cstdio>
 
 #include "adaptation/ladder.h"
-#include "adaptation/mesopic.h"
 #include "cli/verbs/explain_config.h"
 #include "cli/verbs/explain_frames.h"
 #include "cli/report/explain_report.h"
+#include "cli/report/scene_json.h"
 #include "cli/report/image_report.h"
 #include "cli/program.h"
 #include "cli/scene/scene_settings.h"
@@ -26,29 +26,6 @@ struct ExplainOptions {
   CommonOptions common;
 };
 
-/// Luminances in cd/m2.
-struct LightNumbers {
-  double log_average, mean, least, greatest;
-  double scotopic_mean;
-  double sp_ratio;
-  double m;        ///< mesopic adaptation coefficient at La, of this light
-  double mesopic;  ///< luminance that MES2 gives the mean light at that m
-};
-
-LightNumbers light_of(const SceneStatistics& s, const SceneNumbers& numbers) {
-  const double unit = numbers.white_luminance;
-  const double sp = s.sp_ratio();
-  const double m = mesopic_coefficient(numbers.adaptation, sp);
-  return {unit * s.log_mean_luminance(),
-          unit * s.mean_photopic(),
-          unit * static_cast<double>(s.least),
-          unit * static_cast<double>(s.greatest),
-          unit * s.mean_scotopic(),
-          sp,
-          m,
-          mesopic_luminance(unit * s.mean_photopic(), unit * s.mean_scotopic(), m)};
-}
-
 void print(const LightNumbers& light, const SceneNumbers& numbers, const SceneStatistics& statistics,
            const ScenePlan& plan, const std::vector<double>& costs) {
   fmt::print("{}\n", describe(numbers));
@@ -59,38 +36,6 @@ void print(const LightNumbers& light, const SceneNumbers& numbers, const SceneSt
   fmt::print("mesopic luminance    {:.4g} cd/m2 of the mean, coefficient m {:.4g} (1 photopic, 0 scotopic)\n",
              light.mesopic, light.m);
   fmt::print("\n{}\n{}", luminance_text(statistics, numbers.white_luminance), effects_text(plan, costs));
-}
-
-nlohmann::ordered_json result_of(const ExplainOptions& options, const LightNumbers& light, const SceneReport& scene,
-                                 const std::vector<double>& costs) {
-  const SceneNumbers& numbers = scene.numbers;
-  const SceneStatistics& statistics = *scene.statistics;
-  const ScenePlan& plan = scene.plan;
-  nlohmann::ordered_json out;
-  out["input"] = options.input;
-  out["adaptation"] = numbers.adaptation;
-  out["adaptationSource"] = numbers.adaptation_source;
-  out["whiteLuminance"] = numbers.white_luminance;
-  out["whiteLuminanceSource"] = numbers.white_luminance_source;
-  out["photopic"] = {{"logAverage", light.log_average},
-                     {"mean", light.mean},
-                     {"least", light.least},
-                     {"greatest", light.greatest}};
-  out["scotopic"] = {{"mean", light.scotopic_mean}};
-  out["spRatio"] = light.sp_ratio;
-  out["mesopicCoefficient"] = light.m;
-  out["nonFinite"] = statistics.non_finite;
-  out["spectral"] = spectral_json(scene.spectral);
-  out["mesopic"] = {{"mean", light.mesopic}};
-  out["effects"] = plan_json(plan);
-  if (scene.adapting) out["state"] = adapting_json(scene.adapting->state, scene.adapting->thresholds);
-  for (std::size_t i = 0; i < plan.effects.size(); ++i)
-    out["effects"][std::string(plan.effects[i].effect)]["nsPerPixel"] = costs[i];
-  for (const LuminanceBar& bar : luminance_bars(statistics, numbers.white_luminance))
-    out["histogram"].push_back({{"from", bar.from}, {"to", 2 * bar.from}, {"share", bar.share}});
-  out["darkShare"] = dark_share(statistics);
-  out["advice"] = unit_advice(statistics, numbers.adaptation, numbers.white_luminance);
-  return out;
 }
 
 bool is_config(const std::string& file) { return file.size() > 5 && file.rfind(".ocio") == file.size() - 5; }
@@ -120,7 +65,7 @@ int run_explain_image(const ExplainOptions& options, const ImageSettings& settin
   if (const std::string advice = unit_advice(statistics, numbers.adaptation, numbers.white_luminance); !advice.empty())
     console.note(options.input + ": " + advice);
   tell_non_finite(scene.non_finite, options.input, "in none of these numbers", console);
-  console.result(result_of(options, light, scene, costs));
+  console.result(explain_json(options.input, light, scene, costs));
   return static_cast<int>(ExitCode::done);
 }
 

@@ -1,0 +1,39 @@
+// The operator as a host holds it: parameters, understood once, for any number of images.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "host/parameters.h"
+#include "pipeline/memory/run_memory.h"
+
+namespace scotopic {
+
+/// Immutable; any number of threads at once.
+class HostOperator {
+ public:
+  /// Reads the colour config. Error as the program has it for the same options.
+  explicit HostOperator(const Parameters& parameters);
+
+  /// See run_image(MemoryJob).
+  ImageReport apply(const MemoryJob& job, const Notes& notes) const;
+  /// What `scotopic explain --json` says of such an image.
+  nlohmann::ordered_json explain(const MemoryJob& job, const Notes& notes) const;
+  /// What would run on the image, and why, without running it.
+  SceneReport plan(const MemoryJob& job, const Notes& notes) const;
+  /// The pixel stages as a LUT file, as `scotopic bake` writes it: `size` nodes a side, `max_error` may be
+  /// empty. Returns what bake --json says. Needs an adaptation.
+  nlohmann::ordered_json bake(const std::string& path, const std::string& size, const std::string& max_error,
+                              const Notes& notes) const;
+
+  const ImageSettings& settings() const noexcept { return settings_; }
+
+ private:
+  Parameters parameters_;
+  ApplyOptions options_;
+  std::unique_ptr<EvaluatorSource> evaluators_;
+  ImageSettings settings_;
+};
+
+}  // namespace scotopic
