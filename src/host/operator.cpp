@@ -7,6 +7,20 @@
 #include "pipeline/stages/display_stages.h"
 
 namespace scotopic {
+namespace {
+
+/// The same, with stages that tell what they have done.
+ImageSettings measuring(const ImageSettings& settings) {
+  ImageSettings out = settings;
+  out.measure = true;
+  out.frame_stages.clear();
+  out.filter_stages.clear();
+  out.point_stages.clear();
+  add_stages(out);
+  return out;
+}
+
+}  // namespace
 
 HostOperator::HostOperator(const Parameters& parameters)
     : parameters_(parameters),
@@ -21,7 +35,7 @@ ImageReport HostOperator::apply(const MemoryJob& job, const Notes& notes) const 
 }
 
 nlohmann::ordered_json HostOperator::explain(const MemoryJob& job, const Notes& notes) const {
-  return explain_json(job.header.name, read_scene(job, settings_, Statistics::of_all_pixels, notes));
+  return explain_json(job.header.name, read_scene(job, measuring(settings_), Statistics::of_all_pixels, notes));
 }
 
 SceneReport HostOperator::plan(const MemoryJob& job, const Notes& notes) const {
