@@ -1,14 +1,15 @@
 #!/bin/sh
-# The main job on a real image: installs, builds, runs the exact operator and the OCIO look on a night panorama
-# (blender-data's night.exr, CC0), prints how well they agree, and shows both beside the original.
-#   scripts/demo.sh [LA]   adaptation luminance: one of the ladder's, 3 1 0.3 0.1 0.03 0.01 (default) 0.003 0.001
+# The main job on a real image: installs, builds, runs the exact operator and the OCIO view and look on a street at night
+# (tests/data/street.exr, docs/scene.md), prints how well look and operator agree, and shows all beside each other.
+#   scripts/demo.sh [LA]   adaptation luminance: one of the ladder's, 3 1 0.3 0.1 (default) 0.03 0.01 0.003 0.001
 set -eu
 cd "$(dirname "$0")/.."
-la=${1:-0.01}
+la=${1:-0.1}
 scripts/install_packages.sh
 scripts/build.sh release scotopic
 scotopic=build/release/src/cli/scotopic
-night=/usr/share/blender/datafiles/studiolights/world/night.exr
+street=tests/data/street.exr
+night=demo/scene.exr
 config=ocio_config/config.ocio
 mkdir -p demo
 
@@ -16,9 +17,12 @@ look=$(sed -n "s/^ *name: \"\{0,1\}\(Mesopic $la nit[^\"]*\|Scotopic $la nit[^\"
 [ -n "$look" ] || { echo "demo.sh: the config has no look at $la cd/m2" >&2; exit 2; }
 view="Night ${look#* }"
 
-echo "the finished picture: scotopic apply --adaptation $la -o night.png"
-"$scotopic" apply "$night" -o demo/program.png --adaptation "$la" --effects shift,luminance,chroma
-echo "the same as a view of the OCIO config: oiiotool --ociodisplay \"sRGB - Display\" \"$view\""
+# Looks and views do not know what value 1 stands for: they take 0.18 for the luminance adapted to. Here 1 is 10 cd/m2.
+oiiotool "$street" --mulc "$(awk "BEGIN { print 1.8 / $la }")" --eraseattrib whiteLuminance -o "$night"
+
+echo "the finished picture: scotopic apply --adaptation $la street.exr -o night.png"
+"$scotopic" apply "$street" -o demo/program.png --adaptation "$la"
+echo "colour, luminance and display alone, as a view of the OCIO config: oiiotool --ociodisplay \"sRGB - Display\" \"$view\""
 oiiotool --colorconfig "$config" "$night" --ociodisplay:from=scene_linear "sRGB - Display" "$view" -d uint8 -o demo/view.png
 echo "as a camera shows it"
 oiiotool --colorconfig "$config" "$night" --ociodisplay:from=scene_linear "sRGB - Display" "Un-tone-mapped" \
@@ -30,10 +34,10 @@ oiiotool --colorconfig "$config" "$night" \
 echo "agreement of the look with the operator, every pixel exposed to mid-grey:"
 "$scotopic" check "$config" "$look" --image "$night"
 
-# The same part of each.
 for picture in camera program view; do
-  oiiotool "demo/$picture.png" --cut 420x250+40+110 -o "demo/cut_$picture.png"
+  oiiotool "demo/$picture.png" --resize 640x360 -o "demo/cut_$picture.png"
 done
 oiiotool demo/cut_camera.png demo/cut_program.png demo/cut_view.png --mosaic:pad=6 3x1 -o demo/side_by_side.png
 rm demo/cut_*.png
-echo "look at demo/side_by_side.png: as a camera shows it, as the eye sees it (program), as the OCIO view shows it"
+echo "look at demo/side_by_side.png: as a camera shows it, as the eye sees it (program), as the OCIO view shows it,"
+echo "which knows no neighbours: no glare around lamps, all detail"

@@ -9,6 +9,7 @@ illuminants; photographs are blender-data's (CC0), 0.18 being what the eye is ad
 """
 import argparse
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -198,9 +199,60 @@ def effects(studio):
     return tiled([pictures[:2], pictures[2:]])
 
 
+STREET = os.path.join(ROOT, 'tests/data/street.exr')
+
+
+def street_ladder(studio):
+    """The street as the program sends it to a display, everything on."""
+    return tiled([[shrunk_codes(sent(studio, STREET, f'--adaptation {la}'), 2) for la in row]
+                  for row in ((10, 1), (.1, .01), (.003, .001))])
+
+
+def shrunk_codes(pixels, by):
+    return numpy.round(shrunk(pixels.astype(float), by)).astype(numpy.uint8)
+
+
+def glare_age(studio):
+    """Three ages, and no glare; the middle of the street."""
+    ways = ['--glare none', '--age 25', '--age 50', '--age 75']
+    return tiled([[cut(sent(studio, STREET, '--adaptation .1 ' + way), 340, 130, 440, 420) for way in pair]
+                  for pair in (ways[:2], ways[2:])])
+
+
+def detail_ladder(studio):
+    """The brick wall in the picture's left half: detail by contrast; colour and display alone beside it."""
+    wall = lambda options: cut(sent(studio, STREET, options), 0, 40, 300, 420)
+    ways = [f'--adaptation {la} --effects shift,luminance,chroma' for la in (1, .1, .01)]
+    return tiled([[wall(way) for way in ways], [wall(way + ',detail') for way in ways]])
+
+
+def starlight(studio):
+    """Rod noise in three frames of a tenth of a second, four times enlarged."""
+    sky = studio.scene(shrunk(cut(read(WORLDS + 'night.exr')[..., :3], 0, 60, 640, 360), 2))
+    frames = []
+    for frame in (1, 2, 3):
+        pattern = sky[:-4] + '.#.exr'
+        shutil.copy(sky, pattern.replace('#', str(frame)))
+        name = studio.file('.png')
+        out = name[:-4] + '.#.png'
+        subprocess.run([studio.program, 'apply', pattern, '-o', out, '-q', '--frames', str(frame), '--fps', '10',
+                        '--adaptation', '.0003', '--fov', '40', '--strength-display', '.6'], check=True)
+        frames.append(cut(numpy.round(255 * read(out.replace('#', str(frame)))[..., :3]).astype(numpy.uint8), 60, 40, 150, 100, 2))
+    return tiled([frames])
+
+
+def garage(studio):
+    """Out of a garage of 1000 cd/m2, ten minutes of it, into the street at 0.003."""
+    seconds = (0, 1, 5, 10, 60, 300, 600, 1200)
+    pictures = [shrunk_codes(sent(studio, STREET, f'--adaptation .003 --glare none --adaptation-history 1000:600,0.003:{t}'), 4)
+                for t in seconds]
+    return tiled([pictures[:4], pictures[4:]])
+
+
 PICTURES = {'chart_lights.png': chart_lights, 'chart_ladder.png': chart_ladder, 'night_ladder.jpg': night_ladder,
             'lamps.jpg': lamps, 'silhouette.jpg': silhouette, 'models.jpg': models, 'effects.jpg': effects,
-            'thesis.png': thesis, 'display.jpg': display}
+            'thesis.png': thesis, 'display.jpg': display, 'street_ladder.jpg': street_ladder, 'glare_age.jpg': glare_age,
+            'detail_ladder.jpg': detail_ladder, 'starlight.jpg': starlight, 'garage.jpg': garage}
 
 
 def keep(name, pixels):

@@ -218,6 +218,8 @@ class OiioSink : public PixelSink {
       spec.attribute("compression", "jpeg:" + std::to_string(out.jpeg_quality));
       spec.attribute("jpeg:subsampling", "4:4:4");
     }
+    // zlib's 4 takes half the time of its 6 for 2 to 9 % more bytes (1080p, 16 and 8 bits: 0.48 for 0.88 s, 0.26 for 0.41).
+    if (format_ == "png") spec.attribute("png:compressionLevel", 4);
     spec.erase_attribute("oiio:BitsPerSample");
     spec.attribute("Orientation", 1);  // sources are upright
     erase_if(spec, describes_pixels);
