@@ -1,6 +1,7 @@
 // Stages on a whole file, band by band: what is measured of it, and what is written.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -31,6 +32,7 @@ struct ImageStages {
   SpatialFilters filters;                ///< on each picture by itself
   std::vector<const RowStage*> after;
   Moment moment;
+  std::atomic<std::uint64_t>* clipped = nullptr;  ///< counts pixels that the output's type cannot hold
 };
 
 /// What a pass over the light finds, smaller resolutions aside.

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cstdint>
 #include <utility>
 
 #include "base/error.h"
@@ -143,7 +145,10 @@ class ImageRun {
     FramesOfImage frames(image, settings_, job_.moment, notes_);
     look(image, frames);
     make_stages(image, frames);
+    std::atomic<std::uint64_t> clipped = 0;
+    stages_.clipped = &clipped;
     report_.non_finite = ends_.write(image, settings_.config, stages_, job_.progress);
+    tell_clipped(image, clipped);
     describe(image);
     return std::move(report_);
   }
@@ -157,6 +162,18 @@ class ImageRun {
     notes_.note(file + ": " + scotopic::describe(scene.numbers));
     plan(job_, image, settings_, frames.decisions(), scene);
     notes_.note(file + ": " + plan_line(scene.plan));
+  }
+
+  void tell_clipped(const OpenImage& image, std::uint64_t clipped) {
+    std::uint64_t pixels = 0;
+    for (const LightPicture& light : image.layout.light) {
+      const Window& data = image.source->pictures()[light.index].data;
+      pixels += static_cast<std::uint64_t>(data.width()) * static_cast<std::uint64_t>(data.height());
+    }
+    report_.clipped = static_cast<double>(clipped) / static_cast<double>(std::max<std::uint64_t>(pixels, 1));
+    if (clipped > 0)
+      notes_.note(fmt::format("{}: {:.2g} % of its pixels are clipped to what the output's type holds",
+                              image.source->file(), 100 * report_.clipped));
   }
 
   /// Said where it matters: seconds are of noise and time alone.

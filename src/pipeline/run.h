@@ -57,6 +57,7 @@ struct ImageReport {
   SceneReport scene;
   std::vector<Attribute> stamps;
   NonFinitePixels non_finite;
+  double clipped = 0;  ///< share of pixels that the output's type cannot hold
   std::shared_ptr<const Evaluator> evaluator;
   std::optional<ToneReport> tone;
   std::optional<NightReport> night;

@@ -129,5 +129,17 @@ TEST_F(DisplayOutput, safko_s_scale_is_used_and_stated) {
   EXPECT_NE(bytes_of(path("a.exr")), bytes_of(path("b.exr")));
 }
 
+TEST_F(DisplayOutput, the_share_of_clipped_pixels_is_told) {
+  const auto run = [&](const char* out, const char* display, const char* exposure) {
+    return test::run_program({"apply", path("in.exr"), "-o", path(out), "--adaptation", "100", "--display", display,
+                              "--exposure", exposure, "--json"});
+  };
+  const test::Outcome burnt = run("burnt.png", "none", "30");
+  EXPECT_NE(burnt.err.find("are clipped to what the output's type holds"), std::string::npos) << burnt.err;
+  EXPECT_GT(nlohmann::json::parse(burnt.out)["clipped"].get<double>(), 0.5);
+  EXPECT_EQ(nlohmann::json::parse(run("burnt.exr", "none", "30").out)["clipped"], 0.0);
+  EXPECT_EQ(run("dark.png", "none", "-30").err.find("clipped"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace scotopic

@@ -31,6 +31,7 @@ nlohmann::ordered_json image_json(const ImageReport& r) {
   out["effects"] = plan_json(r.scene.plan);
   if (r.scene.adapting) out["state"] = adapting_json(r.scene.adapting->state, r.scene.adapting->thresholds);
   out["nonFinite"] = r.non_finite.count;
+  out["clipped"] = r.clipped;
   if (!r.evaluator->measured.empty()) out["ways"] = measured_json(r.evaluator->measured);
   if (r.tone)
     out["display"] = {{"low", r.tone->low},

@@ -117,7 +117,7 @@ void convert(const LightWriter& to, LightRow& light) {
 
 }  // namespace
 
-void LightWriter::write(LightRow& light, const NativeRow (&out)[3], const NativeRow (*source)[3]) const {
+bool LightWriter::write(LightRow& light, const NativeRow (&out)[3], const NativeRow (*source)[3]) const {
   const std::size_t width = light.r.size();
   const std::uint8_t* const touched = light.touched.data();
   const auto keeps = [&](std::size_t c) {
@@ -125,7 +125,7 @@ void LightWriter::write(LightRow& light, const NativeRow (&out)[3], const Native
   };
   if (keeps(0) && keeps(1) && keeps(2) && !std::memchr(touched, 1, width)) {
     for (std::size_t c = 0; c < 3; ++c) copy_pixels((*source)[c], width, out[c]);
-    return;
+    return false;
   }
   convert(*this, light);
   const bool all = std::memchr(touched, 0, width) == nullptr;
@@ -134,6 +134,18 @@ void LightWriter::write(LightRow& light, const NativeRow (&out)[3], const Native
     store_row(planes[c]->data(), width, out[c]);
     if (keeps(c) && !all) copy_where_zero(touched, (*source)[c], width, out[c]);
   }
+  return true;
+}
+
+std::uint64_t clipped_pixels(const LightRow& light, PixelType type) noexcept {
+  if (type != PixelType::uint8 && type != PixelType::uint16) return 0;
+  // By less than half a code nothing is lost.
+  const float room = type == PixelType::uint8 ? 0.5f / 255 : 0.5f / 65535;
+  const auto inside = [&](float x) { return x >= -room && x <= 1 + room; };
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < light.r.size(); ++i)
+    count += !(inside(light.r[i]) && inside(light.g[i]) && inside(light.b[i]));
+  return count;
 }
 
 }  // namespace scotopic

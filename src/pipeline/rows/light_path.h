@@ -66,6 +66,9 @@ class LightReader {
   Matrix3<double> xyz_from_lms_;
 };
 
+/// Pixels of values that whole numbers from 0 to 1 do not hold; 0 for other types.
+std::uint64_t clipped_pixels(const LightRow& light, PixelType type) noexcept;
+
 /// Writes light as rows of three colour channels.
 struct LightWriter {
   RowConverter from_working;
@@ -78,8 +81,9 @@ struct LightWriter {
   /// agree. True only if nothing else changes the values: same space, gain 1, alpha as it was.
   bool keep_untouched = false;
 
-  /// Changes `light`. `out`: the channels R, G, B of one row. `source`: the channels they were read from.
-  void write(LightRow& light, const NativeRow (&out)[3], const NativeRow (*source)[3]) const;
+  /// Changes `light` to what is written; false: it was not needed, all of the file's bytes were kept. `out`: the channels
+  /// R, G, B of one row. `source`: the channels they were read from.
+  bool write(LightRow& light, const NativeRow (&out)[3], const NativeRow (*source)[3]) const;
 };
 
 }  // namespace scotopic

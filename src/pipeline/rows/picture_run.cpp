@@ -230,12 +230,15 @@ void PictureRun::write_row(const Band& in, int x, int row, Room& room, const Ban
   if (!stages_.after.empty()) show_row(in, x, row, room);
   LightRow& light = room.light;
   const NativeRow targets[3] = {out.channels[0].row(row), out.channels[1].row(row), out.channels[2].row(row)};
+  bool changed = false;
   if (reader_.receptors()) {
-    writer_.write(light, targets, nullptr);
+    changed = writer_.write(light, targets, nullptr);
   } else {
     const NativeRow sources[3] = {colour_row(in, row, 0), colour_row(in, row, 1), colour_row(in, row, 2)};
-    writer_.write(light, targets, &sources);
+    changed = writer_.write(light, targets, &sources);
   }
+  const bool counts = stages_.clipped && source_picture_.level_x == 0 && source_picture_.level_y == 0;
+  if (changed && counts) *stages_.clipped += clipped_pixels(light, targets[0].type);
   copy_others(in, row, light, out);
 }
 
