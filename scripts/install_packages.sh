@@ -9,7 +9,8 @@ build="g++ cmake ninja-build pkg-config libopencolorio-dev libopenimageio-dev li
   dpkg-dev file pybind11-dev python3-dev python3-numpy"
 # The programs that looks are tested in, the data that tables are checked against, the night image.
 use="openimageio-tools opencolorio-tools python3-pyopencolorio python3-openimageio python3-scipy
-  psychtoolbox-3-common blender-data liblcms2-utils icc-profiles-free ffmpeg xvfb xauth libgl1-mesa-dri"
+  psychtoolbox-3-common blender-data liblcms2-utils icc-profiles-free ffmpeg imagemagick graphicsmagick gmic
+  xvfb xauth libgl1-mesa-dri"
 [ "${1:-}" != farm ] || use="$use slurmctld slurmd slurm-client munge"
 
 missing=""

@@ -51,7 +51,8 @@ const Published published[] = {
     {"S-Log3 S-Gamut3", 0, 95.0 / 1023, 1e-6, "Sony, Technical Summary for S-Gamut3/S-Log3: 95 of 1023"},
     {"S-Log3 S-Gamut3.Cine", 0.18, 420.0 / 1023, 1e-6, "the same: 420 of 1023"},
     {"S-Log3 S-Gamut3.Cine", 0.9, 598.0 / 1023, 5e-4, "the same: 598 of 1023, whole codes"},
-    {"V-Log V-Gamut", 0, 128.0 / 1023, 5e-4, "Panasonic, V-Log/V-Gamut reference (2014): 128 of 1023, whole codes"},
+    {"V-Log V-Gamut", 0, 128.0 / 1023, 5e-4,
+     "Panasonic, V-Log/V-Gamut reference (2014): 128 of 1023, whole codes"},
     {"V-Log V-Gamut", 0.18, 433.0 / 1023, 5e-4, "the same: 433 of 1023"},
     {"V-Log V-Gamut", 0.9, 602.0 / 1023, 5e-4, "the same: 602 of 1023"},
     {"Log3G10 REDWideGamutRGB", 0.18, 1.0 / 3, 1e-6, "RED, REDWideGamutRGB and Log3G10: 18 % at a third"},
@@ -70,8 +71,10 @@ const Published published[] = {
 TEST(CameraSpaces, hold_the_codes_that_their_makers_published) {
   const ColourConfig config = ColourConfig::own();
   for (const Published& row : published) {
-    const Vec3<double> code = converted(config.from_working(config.space(row.space)), {row.light, row.light, row.light});
-    for (const double c : code) EXPECT_NEAR(c, row.code, row.tolerance) << row.space << " " << row.light << ": " << row.source;
+    const Vec3<double> code =
+        converted(config.from_working(config.space(row.space)), {row.light, row.light, row.light});
+    for (const double c : code)
+      EXPECT_NEAR(c, row.code, row.tolerance) << row.space << " " << row.light << ": " << row.source;
   }
 }
 
@@ -85,18 +88,74 @@ Real power(Real base, Real x) { return std::pow(base, x); }
 
 std::vector<Formula> formulas() {
   return {
-      {"ACEScct", [](Real v) { return v <= 0.155251141552511L ? (v - 0.0729055341958355L) / 10.5402377416545L : power(2, v * 17.52L - 9.72L); }, 3e-6},
-      {"ACEScc", [](Real v) { return v <= (9.72L - 15) / 17.52L ? (power(2, v * 17.52L - 9.72L) - power(2, -16)) * 2 : power(2, v * 17.52L - 9.72L); }, 6e-6},
-      {"ARRI LogC3 (EI800)", [](Real v) { return v > 5.367655L * 0.010591L + 0.092809L ? (power(10, (v - 0.385537L) / 0.247190L) - 0.052272L) / 5.555556L : (v - 0.092809L) / 5.367655L; }, 1e-5},
-      {"ARRI LogC4", [](Real v) { const Real a = (262144 - 16) / 117.45L, b = 928 / 1023.0L, c = 95 / 1023.0L; return (power(2, 14 * (v - c) / b + 6) - 64) / a; }, 3e-6},
-      {"DaVinci Intermediate WideGamut", [](Real v) { return v > 0.02740668L ? power(2, v / 0.07329248L - 7) - 0.0075L : v / 10.44426855L; }, 3e-6},
-      {"BMDFilm WideGamut Gen5", [](Real v) { return v < 8.283605932402494L * 0.005L + 0.09246575342465753L ? (v - 0.09246575342465753L) / 8.283605932402494L : std::exp((v - 0.5300133392291939L) / 0.08692876065491224L) - 0.005494072432257808L; }, 3e-6},
-      {"S-Log3 S-Gamut3", [](Real v) { return v >= 171.2102946929L / 1023 ? power(10, (v * 1023 - 420) / 261.5L) * 0.19L - 0.01L : (v * 1023 - 95) * 0.01125L / (171.2102946929L - 95); }, 3e-6},
-      {"V-Log V-Gamut", [](Real v) { return v < 0.181L ? (v - 0.125L) / 5.6L : power(10, (v - 0.598206L) / 0.241514L) - 0.00873L; }, 2e-5},
-      {"Log3G10 REDWideGamutRGB", [](Real v) { return (power(10, v / 0.224282L) - 1) / 155.975327L - 0.01L; }, 3e-6},
-      {"CanonLog2 CinemaGamut D55", [](Real v) { const Real x = (power(10, std::abs(v - 0.092864125L) / 0.24136077L) - 1) / 87.099375L; return 0.9L * (v < 0.092864125L ? -x : x); }, 3e-6},
-      {"CanonLog3 CinemaGamut D55", [](Real v) { return 0.9L * (v < 0.097465473L ? -(power(10, (0.12783901L - v) / 0.36726845L) - 1) / 14.98325L : v <= 0.15277891L ? (v - 0.12512219L) / 1.9754798L : (power(10, (v - 0.12240537L) / 0.36726845L) - 1) / 14.98325L); }, 3e-6},
-      {"Apple Log", [](Real v) { const Real c = 47.28711236L, r0 = -0.05641088L; return v < c * (0.01L - r0) * (0.01L - r0) ? std::sqrt(v / c) + r0 : power(2, (v - 0.69336945L) / 0.08550479L) - 0.00964052L; }, 3e-6},
+      {"ACEScct",
+       [](Real v) {
+         return v <= 0.155251141552511L ? (v - 0.0729055341958355L) / 10.5402377416545L
+                                        : power(2, v * 17.52L - 9.72L);
+       },
+       3e-6},
+      {"ACEScc",
+       [](Real v) {
+         return v <= (9.72L - 15) / 17.52L ? (power(2, v * 17.52L - 9.72L) - power(2, -16)) * 2
+                                           : power(2, v * 17.52L - 9.72L);
+       },
+       6e-6},
+      {"ARRI LogC3 (EI800)",
+       [](Real v) {
+         return v > 5.367655L * 0.010591L + 0.092809L
+                    ? (power(10, (v - 0.385537L) / 0.247190L) - 0.052272L) / 5.555556L
+                    : (v - 0.092809L) / 5.367655L;
+       },
+       1e-5},
+      {"ARRI LogC4",
+       [](Real v) {
+         const Real a = (262144 - 16) / 117.45L, b = 928 / 1023.0L, c = 95 / 1023.0L;
+         return (power(2, 14 * (v - c) / b + 6) - 64) / a;
+       },
+       3e-6},
+      {"DaVinci Intermediate WideGamut",
+       [](Real v) { return v > 0.02740668L ? power(2, v / 0.07329248L - 7) - 0.0075L : v / 10.44426855L; },
+       3e-6},
+      {"BMDFilm WideGamut Gen5",
+       [](Real v) {
+         return v < 8.283605932402494L * 0.005L + 0.09246575342465753L
+                    ? (v - 0.09246575342465753L) / 8.283605932402494L
+                    : std::exp((v - 0.5300133392291939L) / 0.08692876065491224L) - 0.005494072432257808L;
+       },
+       3e-6},
+      {"S-Log3 S-Gamut3",
+       [](Real v) {
+         return v >= 171.2102946929L / 1023 ? power(10, (v * 1023 - 420) / 261.5L) * 0.19L - 0.01L
+                                            : (v * 1023 - 95) * 0.01125L / (171.2102946929L - 95);
+       },
+       3e-6},
+      {"V-Log V-Gamut",
+       [](Real v) {
+         return v < 0.181L ? (v - 0.125L) / 5.6L : power(10, (v - 0.598206L) / 0.241514L) - 0.00873L;
+       },
+       2e-5},
+      {"Log3G10 REDWideGamutRGB", [](Real v) { return (power(10, v / 0.224282L) - 1) / 155.975327L - 0.01L; },
+       3e-6},
+      {"CanonLog2 CinemaGamut D55",
+       [](Real v) {
+         const Real x = (power(10, std::abs(v - 0.092864125L) / 0.24136077L) - 1) / 87.099375L;
+         return 0.9L * (v < 0.092864125L ? -x : x);
+       },
+       3e-6},
+      {"CanonLog3 CinemaGamut D55",
+       [](Real v) {
+         return 0.9L * (v < 0.097465473L   ? -(power(10, (0.12783901L - v) / 0.36726845L) - 1) / 14.98325L
+                        : v <= 0.15277891L ? (v - 0.12512219L) / 1.9754798L
+                                           : (power(10, (v - 0.12240537L) / 0.36726845L) - 1) / 14.98325L);
+       },
+       3e-6},
+      {"Apple Log",
+       [](Real v) {
+         const Real c = 47.28711236L, r0 = -0.05641088L;
+         return v < c * (0.01L - r0) * (0.01L - r0) ? std::sqrt(v / c) + r0
+                                                    : power(2, (v - 0.69336945L) / 0.08550479L) - 0.00964052L;
+       },
+       3e-6},
   };
 }
 
@@ -119,18 +178,34 @@ TEST(CameraSpaces, decode_by_their_makers_formulas_in_long_double) {
   }
 }
 
-const std::vector<std::string> all_spaces = {
-    "ACEScc", "ACEScct", "Apple Log", "ARRI LogC3 (EI800)", "ARRI LogC4", "BMDFilm WideGamut Gen5",
-    "DaVinci Intermediate WideGamut", "CanonLog2 CinemaGamut D55", "CanonLog3 CinemaGamut D55", "V-Log V-Gamut",
-    "Log3G10 REDWideGamutRGB", "S-Log3 S-Gamut3", "S-Log3 S-Gamut3.Cine", "S-Log3 Venice S-Gamut3",
-    "S-Log3 Venice S-Gamut3.Cine", "sRGB - Texture", "sRGB - Display", "Rec.1886 Rec.709 - Display",
-    "Rec.2100-PQ - Display", "Rec.2100-HLG - Display"};
+const std::vector<std::string> all_spaces = {"ACEScc",
+                                             "ACEScct",
+                                             "Apple Log",
+                                             "ARRI LogC3 (EI800)",
+                                             "ARRI LogC4",
+                                             "BMDFilm WideGamut Gen5",
+                                             "DaVinci Intermediate WideGamut",
+                                             "CanonLog2 CinemaGamut D55",
+                                             "CanonLog3 CinemaGamut D55",
+                                             "V-Log V-Gamut",
+                                             "Log3G10 REDWideGamutRGB",
+                                             "S-Log3 S-Gamut3",
+                                             "S-Log3 S-Gamut3.Cine",
+                                             "S-Log3 Venice S-Gamut3",
+                                             "S-Log3 Venice S-Gamut3.Cine",
+                                             "sRGB - Texture",
+                                             "sRGB - Display",
+                                             "Rec.1886 Rec.709 - Display",
+                                             "Rec.2100-PQ - Display",
+                                             "Rec.2100-HLG - Display"};
 
-// Light of strong colours loses its small components to float in the matrices: greys, and colours within four stops.
+// Light of strong colours loses its small components to float in the matrices: greys, and colours within four
+// stops.
 TEST(CameraSpaces, come_back_to_1e_6) {
   const ColourConfig config = ColourConfig::own();
   for (const std::string& name : all_spaces) {
-    const RowConverter to = config.to_working(config.space(name)), from = config.from_working(config.space(name));
+    const RowConverter to = config.to_working(config.space(name)),
+                       from = config.from_working(config.space(name));
     double worst = 0;
     Vec3<double> at{};
     for (int i = 0; i <= 1000; ++i)
@@ -143,7 +218,8 @@ TEST(CameraSpaces, come_back_to_1e_6) {
           if (error > worst) worst = error, at = code;
         }
       }
-    std::printf("%-32s comes back to %.1e, worst (%.3f, %.3f, %.3f)\n", name.c_str(), worst, at[0], at[1], at[2]);
+    std::printf("%-32s comes back to %.1e, worst (%.3f, %.3f, %.3f)\n", name.c_str(), worst, at[0], at[1],
+                at[2]);
     EXPECT_LE(worst, 1e-6) << name;
   }
 }
@@ -154,25 +230,46 @@ struct Columns {
 };
 // As the CLF files of the OpenColorIO ACES configs print them.
 const Columns columns[] = {
-    {"ARRI LogC4", {{{{0.750957362824734, 0.144422786709757, 0.104619850465509}, {0.000821837079380207, 1.007397584885, -0.00821942196438358}, {-0.000499952143533471, -0.000854177231436971, 1.00135412937497}}}}},
-    {"DaVinci Intermediate WideGamut", {{{{0.748270290272981, 0.167694659554328, 0.0840350501726906}, {0.0208421234689102, 1.11190474268894, -0.132746866157851}, {-0.0915122574225729, -0.127746712807307, 1.21925897022988}}}}},
-    {"BMDFilm WideGamut Gen5", {{{{0.647091325580708, 0.242595385134207, 0.110313289285085}, {0.0651915997328519, 1.02504756760476, -0.0902391673376125}, {-0.0275570729194699, -0.0805887097177784, 1.10814578263725}}}}},
-    {"ARRI LogC3 (EI800)", {{{{0.680205505106279, 0.236136601606481, 0.0836578932872398}, {0.0854149797421404, 1.01747087860704, -0.102885858349182}, {0.00205652166929683, -0.0625625003847921, 1.06050597871549}}}}},
-    {"V-Log V-Gamut", {{{{0.72461670413153, 0.166915288193706, 0.108468007674764}, {0.021390245413146, 0.984908155703054, -0.00629840111620089}, {-0.00923556287076561, -0.00105690563900513, 1.01029246850977}}}}},
-    {"S-Log3 S-Gamut3.Cine", {{{{0.638788667185978, 0.272351433711262, 0.0888598991027595}, {-0.00391590602528224, 1.0880732308974, -0.0841573248721177}, {-0.0299072021239151, -0.0264325799101947, 1.05633978203411}}}}},
+    {"ARRI LogC4",
+     {{{{0.750957362824734, 0.144422786709757, 0.104619850465509},
+        {0.000821837079380207, 1.007397584885, -0.00821942196438358},
+        {-0.000499952143533471, -0.000854177231436971, 1.00135412937497}}}}},
+    {"DaVinci Intermediate WideGamut",
+     {{{{0.748270290272981, 0.167694659554328, 0.0840350501726906},
+        {0.0208421234689102, 1.11190474268894, -0.132746866157851},
+        {-0.0915122574225729, -0.127746712807307, 1.21925897022988}}}}},
+    {"BMDFilm WideGamut Gen5",
+     {{{{0.647091325580708, 0.242595385134207, 0.110313289285085},
+        {0.0651915997328519, 1.02504756760476, -0.0902391673376125},
+        {-0.0275570729194699, -0.0805887097177784, 1.10814578263725}}}}},
+    {"ARRI LogC3 (EI800)",
+     {{{{0.680205505106279, 0.236136601606481, 0.0836578932872398},
+        {0.0854149797421404, 1.01747087860704, -0.102885858349182},
+        {0.00205652166929683, -0.0625625003847921, 1.06050597871549}}}}},
+    {"V-Log V-Gamut",
+     {{{{0.72461670413153, 0.166915288193706, 0.108468007674764},
+        {0.021390245413146, 0.984908155703054, -0.00629840111620089},
+        {-0.00923556287076561, -0.00105690563900513, 1.01029246850977}}}}},
+    {"S-Log3 S-Gamut3.Cine",
+     {{{{0.638788667185978, 0.272351433711262, 0.0888598991027595},
+        {-0.00391590602528224, 1.0880732308974, -0.0841573248721177},
+        {-0.0299072021239151, -0.0264325799101947, 1.05633978203411}}}}},
 };
 
 TEST(CameraSpaces, have_the_primaries_of_the_aces_configs) {
   const ColourConfig config = ColourConfig::own();
-  const Matrix3<double> aces_from_working = inverse(gamut_xyz_matrix("ap0").value()) * config.xyz_from_working();
+  const Matrix3<double> aces_from_working =
+      inverse(gamut_xyz_matrix("ap0").value()) * config.xyz_from_working();
   for (const Columns& row : columns) {
-    const RowConverter to = config.to_working(config.space(row.space)), from = config.from_working(config.space(row.space));
+    const RowConverter to = config.to_working(config.space(row.space)),
+                       from = config.from_working(config.space(row.space));
     const Vec3<double> grey = converted(from, {0.5, 0.5, 0.5}), black = converted(from, {0, 0, 0});
     for (std::size_t c = 0; c < 3; ++c) {
       Vec3<double> code = black;
       code[c] = grey[c];
       const Vec3<double> aces = aces_from_working * converted(to, code);
-      for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(aces[k], 0.5 * row.aces[k][c], 2e-6) << row.space << c << k;
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_NEAR(aces[k], 0.5 * row.aces[k][c], 2e-6) << row.space << c << k;
     }
   }
 }

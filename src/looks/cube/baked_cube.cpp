@@ -17,16 +17,20 @@ constexpr StopRange fitted_stops{cube_darkest - 0.5, cube_brightest + 0.5, 0.25}
 constexpr double own_gamut_weight = 0.05;
 
 /// Some dozens for each cell that colours of a gamut pass through.
-std::size_t fitted_colours(std::size_t edge) { return std::min<std::size_t>(9 * edge * edge * edge / 2, 800000); }
+std::size_t fitted_colours(std::size_t edge) {
+  return std::min<std::size_t>(9 * edge * edge * edge / 2, 800000);
+}
 
-std::vector<double> nodes_of(const CubeGoal& goal, const LookSpec& spec, const ColourConfig& config, bool fit) {
+std::vector<double> nodes_of(const CubeGoal& goal, const LookSpec& spec, const ColourConfig& config,
+                             bool fit) {
   std::vector<double> nodes = sampled_nodes(goal, spec.edge);
   if (!fit) return nodes;
   const Matrix3<double>& working = spec.parameters.xyz_from_rgb;
   const std::size_t count = fitted_colours(spec.edge);
   const std::vector<FitColours> sets = {
       {coded_colours(goal, gamut_xyz_matrix("rec709").value(), working, count, fitted_stops).codes, 1},
-      {coded_colours(goal, own_gamut(spec, config), working, count / 2, fitted_stops).codes, own_gamut_weight}};
+      {coded_colours(goal, own_gamut(spec, config), working, count / 2, fitted_stops).codes,
+       own_gamut_weight}};
   return fitted_nodes(goal, spec.edge, std::move(nodes), sets);
 }
 

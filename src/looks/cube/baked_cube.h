@@ -15,7 +15,8 @@ struct BakedCube {
   CubeError error;
 };
 
-/// `spec`: an encoded one; its edge is what is made. `fit`: else nodes hold the goal as it is there, for comparison.
+/// `spec`: an encoded one; its edge is what is made. `fit`: else nodes hold the goal as it is there, for
+/// comparison.
 BakedCube bake_cube(const LookSpec& spec, const ColourConfig& config, bool fit = true);
 
 /// Whether a larger cube is worth its bytes: over Rec.709 colours the mean is above 0.08 or the 99 % above 1.

@@ -29,7 +29,8 @@ bool is_code(float x) { return x >= 0 && x <= 1; }
 }  // namespace
 
 CodedColours coded_colours(const CubeGoal& goal, const Matrix3<double>& xyz_from_gamut,
-                           const Matrix3<double>& xyz_from_working, std::size_t count, const StopRange& range) {
+                           const Matrix3<double>& xyz_from_working, std::size_t count,
+                           const StopRange& range) {
   const Colours all =
       goal.codes(inside_ap1(stop_colours(count, xyz_from_gamut, xyz_from_working, range), xyz_from_working));
   CodedColours out;

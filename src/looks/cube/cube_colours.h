@@ -16,8 +16,10 @@ struct CodedColours {
   double without_code = 0;  ///< share of the colours asked for that have none
 };
 
-/// `count` colours of a gamut, over the stops, as stop_colours has them, those outside AP1 left out: no camera means them.
+/// `count` colours of a gamut, over the stops, as stop_colours has them, those outside AP1 left out: no
+/// camera means them.
 CodedColours coded_colours(const CubeGoal& goal, const Matrix3<double>& xyz_from_gamut,
-                           const Matrix3<double>& xyz_from_working, std::size_t count, const StopRange& range);
+                           const Matrix3<double>& xyz_from_working, std::size_t count,
+                           const StopRange& range);
 
 }  // namespace scotopic

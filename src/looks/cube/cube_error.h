@@ -23,7 +23,8 @@ struct ReadingError {
   const BakeError& worse() const noexcept;
 };
 
-/// Over Rec.709 colours and over those of the space's own gamut that AP1 holds, cube_darkest to cube_brightest.
+/// Over Rec.709 colours and over those of the space's own gamut that AP1 holds, cube_darkest to
+/// cube_brightest.
 struct CubeError {
   ReadingError rec709, own;
 };

@@ -23,7 +23,8 @@ struct FitPoint {
   double weight = 1;  ///< of its set
 };
 
-void add_points(std::vector<FitPoint>& points, const CubeGoal& goal, std::size_t edge, const FitColours& set) {
+void add_points(std::vector<FitPoint>& points, const CubeGoal& goal, std::size_t edge,
+                const FitColours& set) {
   Colours out = goal.exact(set.codes);
   for (auto* plane : {&out.r, &out.g, &out.b})
     for (float& x : *plane) x = x > 0 ? std::min(x, 1.f) : 0.f;
@@ -41,11 +42,13 @@ void add_points(std::vector<FitPoint>& points, const CubeGoal& goal, std::size_t
 /// The sum over colours and readings of weight * difference^2, as a quadratic form of the nodes.
 class Misfit {
  public:
-  Misfit(const CubeGoal& goal, std::size_t edge, const std::vector<FitColours>& sets, const Values& held, double hold)
+  Misfit(const CubeGoal& goal, std::size_t edge, const std::vector<FitColours>& sets, const Values& held,
+         double hold)
       : edge_(edge), held_(held) {
     for (const FitColours& set : sets) add_points(points_, goal, edge, set);
     // Neighbours in the cube are neighbours in memory.
-    std::stable_sort(points_.begin(), points_.end(), [](const auto& a, const auto& b) { return a.at.cell < b.at.cell; });
+    std::stable_sort(points_.begin(), points_.end(),
+                     [](const auto& a, const auto& b) { return a.at.cell < b.at.cell; });
     hold_ = hold * mean_weight();
   }
 
@@ -92,7 +95,8 @@ class Misfit {
   /// Of a code's element, on average over colours: what `hold` is a share of.
   double mean_weight() const {
     double sum = 0;
-    for (const FitPoint& p : points_) sum += p.weight * static_cast<double>(p.metric[0] + p.metric[1] + p.metric[2]) / 3;
+    for (const FitPoint& p : points_)
+      sum += p.weight * static_cast<double>(p.metric[0] + p.metric[1] + p.metric[2]) / 3;
     return points_.empty() ? 1 : sum / static_cast<double>(points_.size());
   }
   static Vec3<double> value(const Values& nodes, const NodeShares& shares) {
@@ -117,7 +121,9 @@ class Misfit {
   std::vector<FitPoint> points_;
 };
 
-double product(const Values& a, const Values& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
+double product(const Values& a, const Values& b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
 
 Values quotient(const Values& a, const Values& b) {
   Values out(a.size());
@@ -148,7 +154,9 @@ void descend(Values& nodes, const Misfit& misfit, int steps) {
 
 std::vector<double> sampled_nodes(const CubeGoal& goal, std::size_t edge) {
   Colours codes;
-  const auto code = [&](std::size_t i) { return static_cast<float>(static_cast<double>(i) / static_cast<double>(edge - 1)); };
+  const auto code = [&](std::size_t i) {
+    return static_cast<float>(static_cast<double>(i) / static_cast<double>(edge - 1));
+  };
   for (std::size_t i = 0; i < edge; ++i)
     for (std::size_t j = 0; j < edge; ++j)
       for (std::size_t k = 0; k < edge; ++k) {
@@ -160,7 +168,8 @@ std::vector<double> sampled_nodes(const CubeGoal& goal, std::size_t edge) {
   Values nodes;
   nodes.reserve(3 * out.size());
   for (std::size_t n = 0; n < out.size(); ++n)
-    for (const float x : {out.r[n], out.g[n], out.b[n]}) nodes.push_back(x > 0 ? std::min(static_cast<double>(x), 1.0) : 0.0);
+    for (const float x : {out.r[n], out.g[n], out.b[n]})
+      nodes.push_back(x > 0 ? std::min(static_cast<double>(x), 1.0) : 0.0);
   return nodes;
 }
 

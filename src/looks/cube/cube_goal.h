@@ -26,7 +26,8 @@ class CubeGoal {
   Colours light_out(Colours codes) const;
   /// CIE XYZ (D65) of the same.
   std::vector<Vec3<double>> seen(Colours codes) const;
-  /// Of two such: CIEDE2000 of pixels exposed alike; of what a display of 100 cd/m2 shows as it is; ITP above that peak.
+  /// Of two such: CIEDE2000 of pixels exposed alike; of what a display of 100 cd/m2 shows as it is; ITP above
+  /// that peak.
   Comparison::Difference difference() const noexcept { return difference_; }
 
  private:

@@ -6,7 +6,8 @@
 namespace scotopic {
 namespace {
 
-constexpr float step = 0.000244140625f;  // of a code, 2^-12: small beside what bends, large beside float's rounding
+constexpr float step =
+    0.000244140625f;               // of a code, 2^-12: small beside what bends, large beside float's rounding
 constexpr double floor_of = 1e-3;  // of the largest diagonal element, added: no direction is free
 
 // Along the axes and between each two of them.
@@ -34,7 +35,8 @@ bool is_positive(const Metric& metric) {
   return m(2) - l20 * m(4) - l21 * l21 * d1 > 0;
 }
 
-/// CIEDE2000 is no square of a length: what is left of that over a step must not turn a minimum into a saddle.
+/// CIEDE2000 is no square of a length: what is left of that over a step must not turn a minimum into a
+/// saddle.
 Metric made_positive(Metric m) {
   for (int tries = 0; tries < 20 && !is_positive(m); ++tries)
     for (std::size_t i = 3; i < 6; ++i) m[i] *= 0.9f;
@@ -45,8 +47,12 @@ Metric made_positive(Metric m) {
 Metric metric_of(const std::array<double, 6>& q) {
   const double floor = floor_of * std::max({q[0], q[1], q[2]});
   const auto f = [](double x) { return static_cast<float>(x); };
-  return {f(q[0] + floor),           f(q[1] + floor),           f(q[2] + floor), f((q[3] - q[0] - q[1]) / 2),
-          f((q[4] - q[0] - q[2]) / 2), f((q[5] - q[1] - q[2]) / 2)};
+  return {f(q[0] + floor),
+          f(q[1] + floor),
+          f(q[2] + floor),
+          f((q[3] - q[0] - q[1]) / 2),
+          f((q[4] - q[0] - q[2]) / 2),
+          f((q[5] - q[1] - q[2]) / 2)};
 }
 
 }  // namespace

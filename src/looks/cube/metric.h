@@ -9,7 +9,8 @@
 
 namespace scotopic {
 
-/// Symmetric: xx, yy, zz, xy, xz, yz. The square of the difference that a change d of the code makes is d' M d.
+/// Symmetric: xx, yy, zz, xy, xz, yz. The square of the difference that a change d of the code makes is d' M
+/// d.
 using Metric = std::array<float, 6>;
 
 /// Of each code out, by the goal's difference over steps of 1/1000.

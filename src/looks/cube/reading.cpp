@@ -71,7 +71,8 @@ NodeShares node_shares(const CubePoint& point, std::size_t edge, Reading reading
   return reading == Reading::tetrahedral ? tetrahedral(point, edge) : trilinear(point, edge);
 }
 
-Vec3<double> read_cube(std::span<const double> nodes, std::size_t edge, const Vec3<double>& code, Reading reading) noexcept {
+Vec3<double> read_cube(std::span<const double> nodes, std::size_t edge, const Vec3<double>& code,
+                       Reading reading) noexcept {
   const NodeShares shares = node_shares(cube_point(code, edge), edge, reading);
   Vec3<double> out{};
   for (std::size_t i = 0; i < shares.count; ++i)

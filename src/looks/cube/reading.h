@@ -10,11 +10,13 @@
 
 namespace scotopic {
 
-/// Hosts take the four nodes of a tetrahedron (ffmpeg, OpenColorIO, Resolve on request), or the eight of a cell.
+/// Hosts take the four nodes of a tetrahedron (ffmpeg, OpenColorIO, Resolve on request), or the eight of a
+/// cell.
 enum class Reading { tetrahedral, trilinear };
 inline constexpr std::array<Reading, 2> readings = {Reading::tetrahedral, Reading::trilinear};
 
-/// Where a code lies in a cube of `edge` nodes a side, blue fastest: the cell's first node, and the way to the next.
+/// Where a code lies in a cube of `edge` nodes a side, blue fastest: the cell's first node, and the way to
+/// the next.
 struct CubePoint {
   std::uint32_t cell = 0;
   std::array<float, 3> part{};
@@ -32,6 +34,7 @@ struct NodeShares {
 NodeShares node_shares(const CubePoint& point, std::size_t edge, Reading reading) noexcept;
 
 /// What a reading of a cube gives for a code. `nodes`: edge^3 triplets, blue fastest.
-Vec3<double> read_cube(std::span<const double> nodes, std::size_t edge, const Vec3<double>& code, Reading reading) noexcept;
+Vec3<double> read_cube(std::span<const double> nodes, std::size_t edge, const Vec3<double>& code,
+                       Reading reading) noexcept;
 
 }  // namespace scotopic

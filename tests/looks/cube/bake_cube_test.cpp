@@ -31,11 +31,14 @@ class BakeCube : public testing::Test {
 };
 
 TEST_F(BakeCube, states_its_error_in_both_readings_and_check_finds_the_same) {
-  const std::string file = baked("a.cube", {"--adaptation", "0.1", "--colorspace", "arri_logc4", "--size", "17"});
+  const std::string file =
+      baked("a.cube", {"--adaptation", "0.1", "--colorspace", "arri_logc4", "--size", "17"});
   const std::string text = test::read_text(file).substr(0, 4000);
-  for (const char* line : {"\n# Rec.709 colours of -8 to 5 stops, tetrahedral: mean ", "\n# Rec.709 colours of -8 to 5 stops, trilinear: mean ",
-                           "\n# Colours of the space's own gamut (within AP1) of -8 to 5 stops, trilinear: mean ", "space=ARRI LogC4",
-                           "\nLUT_3D_SIZE 17\n"})
+  for (const char* line :
+       {"\n# Rec.709 colours of -8 to 5 stops, tetrahedral: mean ",
+        "\n# Rec.709 colours of -8 to 5 stops, trilinear: mean ",
+        "\n# Colours of the space's own gamut (within AP1) of -8 to 5 stops, trilinear: mean ",
+        "space=ARRI LogC4", "\nLUT_3D_SIZE 17\n"})
     EXPECT_NE(text.find(line), std::string::npos) << line << "\n" << text;
   const Outcome checked = run_program({"check", file});
   EXPECT_EQ(checked.exit_code, 0) << checked.out;
@@ -55,21 +58,21 @@ TEST_F(BakeCube, takes_as_many_nodes_as_the_error_asks_for) {
 TEST_F(BakeCube, warns_of_errors_that_are_seen) {
   baked("a.cube", {"--adaptation", "0.1", "--colorspace", "ARRI LogC4", "--size", "17"});
   EXPECT_NE(err_.find("which is seen"), std::string::npos) << err_;
-  EXPECT_EQ(run_program({"bake", "--adaptation", "0.1", "--colorspace", "ARRI LogC4", "--size", "17", "--max-error", "1", "-o",
-                         folder_.path("b.cube")})
+  EXPECT_EQ(run_program({"bake", "--adaptation", "0.1", "--colorspace", "ARRI LogC4", "--size", "17",
+                         "--max-error", "1", "-o", folder_.path("b.cube")})
                 .exit_code,
             1);
 }
 
 TEST_F(BakeCube, of_a_display_gives_its_codes) {
-  const std::string file = baked("n.cube", {"--adaptation", "0.1", "--colorspace", "ACEScct", "--size", "17", "--display",
-                                            "night:Rec.1886 Rec.709 - Display"});
+  const std::string file = baked("n.cube", {"--adaptation", "0.1", "--colorspace", "ACEScct", "--size", "17",
+                                            "--display", "night:Rec.1886 Rec.709 - Display"});
   const std::string text = test::read_text(file).substr(0, 4000);
   EXPECT_NE(text.find("# out: Rec.1886 Rec.709 - Display, peak 100 cd/m2\n"), std::string::npos) << text;
   EXPECT_NE(text.find("the display stage, CIEDE2000 of what is shown"), std::string::npos) << text;
   EXPECT_EQ(run_program({"check", file}).exit_code, 0);
-  const std::string hdr =
-      baked("h.cube", {"--adaptation", "0.1", "--colorspace", "ACEScct", "--size", "17", "--display", "night:Rec.2100-PQ - Display"});
+  const std::string hdr = baked("h.cube", {"--adaptation", "0.1", "--colorspace", "ACEScct", "--size", "17",
+                                           "--display", "night:Rec.2100-PQ - Display"});
   EXPECT_NE(test::read_text(hdr).find("peak 1000 cd/m2"), std::string::npos);
   EXPECT_NE(test::read_text(hdr).find("delta E ITP"), std::string::npos);
 }

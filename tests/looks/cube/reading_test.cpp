@@ -33,7 +33,8 @@ std::vector<Vec3<double>> codes() {
   std::mt19937 engine(11);
   std::uniform_real_distribution<float> value(0, 1);
   for (int i = 0; i < 2000; ++i)
-    out.push_back({static_cast<double>(value(engine)), static_cast<double>(value(engine)), static_cast<double>(value(engine))});
+    out.push_back({static_cast<double>(value(engine)), static_cast<double>(value(engine)),
+                   static_cast<double>(value(engine))});
   return out;
 }
 
@@ -75,7 +76,8 @@ TEST(Reading, is_opencolorio_s_reading) {
       float p[3] = {static_cast<float>(code[0]), static_cast<float>(code[1]), static_cast<float>(code[2])};
       processor->applyRGB(p);
       const Vec3<double> got = read_cube(nodes, edge, code, reading);
-      for (std::size_t c = 0; c < 3; ++c) worst = std::max(worst, std::abs(got[c] - static_cast<double>(p[c])));
+      for (std::size_t c = 0; c < 3; ++c)
+        worst = std::max(worst, std::abs(got[c] - static_cast<double>(p[c])));
     }
     std::printf("largest difference to OpenColorIO %.1e\n", worst);
     EXPECT_LE(worst, 1e-5);  // its float
