@@ -6,6 +6,7 @@
 #include <iostream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "cli/process.h"
@@ -13,6 +14,18 @@
 
 namespace scotopic {
 namespace {
+
+/// What people call an option elsewhere, or in papers.
+std::string other_name_of(const std::string& option, const std::vector<std::string>& known) {
+  constexpr std::pair<std::string_view, std::string_view> names[] = {
+      {"--la", "--adaptation"},     {"--luminance-adaptation", "--adaptation"}, {"--white", "--white-luminance"},
+      {"--unit", "--white-luminance"}, {"--view", "--display"},                 {"--lut", "--look"},
+      {"--quality", "--precision"}, {"--in-colorspace", "--colorspace"},        {"--frame", "--frames"}};
+  for (const auto& [other, name] : names)
+    if (option == other && std::find(known.begin(), known.end(), name) != known.end())
+      return "; did you mean " + std::string(name) + "?";
+  return did_you_mean(option, known);
+}
 
 /// A long option or verb that does not exist, with what it may have been; empty if that is not what is wrong.
 std::string unknown_name(const CLI::App& program, int argc, char** argv) {
@@ -33,7 +46,7 @@ std::string unknown_name(const CLI::App& program, int argc, char** argv) {
     if (argument == "--") break;
     const std::string name(argument.substr(0, argument.find('=')));
     if (name.rfind("--", 0) == 0 && std::find(names.begin(), names.end(), name) == names.end())
-      return "unknown option '" + name + "'" + did_you_mean(name, names);
+      return "unknown option '" + name + "'" + other_name_of(name, names);
   }
   return "";
 }
@@ -109,6 +122,10 @@ int run_program(int argc, char** argv, const std::vector<AddVerb>& verbs) {
   program.require_subcommand(1);
   Invocation invocation;
   for (const AddVerb add : verbs) add(program, invocation);
+  if (argc <= 1) {
+    std::fputs(program.help().c_str(), stdout);
+    return static_cast<int>(ExitCode::usage);
+  }
   try {
     program.parse(arguments_of(argc, argv));
     refuse_empty_values(program);

@@ -331,5 +331,15 @@ TEST(Help, every_verb_has_one_with_an_example) {
   EXPECT_EQ(test::run_program({"--version"}).out.rfind("scotopic ", 0), 0u);
 }
 
+TEST(Arguments, the_program_by_itself_prints_its_verbs_and_papers_names_are_understood) {
+  const test::Outcome alone = test::run_program({});
+  EXPECT_EQ(alone.exit_code, 2);
+  for (const char* verb : {"apply", "lmsr", "explain", "bake", "check", "time"})
+    EXPECT_NE(alone.out.find(verb), std::string::npos) << verb;
+  const test::Outcome la = test::run_program({"apply", "in.exr", "-o", "out.exr", "--la", "0.1"});
+  EXPECT_EQ(la.exit_code, 2);
+  EXPECT_NE(la.err.find("unknown option '--la'; did you mean --adaptation?"), std::string::npos) << la.err;
+}
+
 }  // namespace
 }  // namespace scotopic
