@@ -28,6 +28,7 @@ using SpatialFilters = std::vector<const SpatialFilter*>;
 struct ImageStages {
   NonFinite non_finite = NonFinite::keep;
   const FrameLights* frames = nullptr;   ///< light as frame stages have left it; null: as the file has it
+  std::optional<LightMatrices> light;    ///< on what the pixel stages get
   const Evaluator* evaluator = nullptr;  ///< pixel stages; null: nothing is called for
   SpatialFilters filters;                ///< on each picture by itself
   std::vector<const RowStage*> after;

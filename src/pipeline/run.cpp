@@ -82,6 +82,7 @@ void plan(const ImageJob& job, OpenImage& image, const ImageSettings& s,
   std::vector<EffectDecision> decided = of_frames;
   const StageScene of_stages = stage_scene(s, scene, image.layout.wraps, job.adaptation.has_value());
   try {
+    decide(s.light_stages, of_stages, decided);
     decide(s.filter_stages, of_stages, decided);
     decide(s.point_stages, of_stages, decided);
   } catch (const Error& error) {
@@ -195,6 +196,7 @@ class ImageRun {
     scene_ = stage_scene(settings_, report_.scene, image.layout.wraps, job_.adaptation.has_value());
     scene_.parameters.rod_adaptation = parameters.rod_adaptation;
     scene_.precision = report_.evaluator->precision();
+    add_light();
     add_filters(image, frames);
     add_points();
     add_display(image, parameters);
@@ -214,6 +216,16 @@ class ImageRun {
 
   void add_stamps(const std::vector<Attribute>& more) {
     report_.stamps.insert(report_.stamps.end(), more.begin(), more.end());
+  }
+
+  void add_light() {
+    for (const auto& stage : settings_.light_stages) {
+      if (!report_.scene.plan.effect(stage->name()).runs()) continue;
+      const LightMatrices next = stage->matrices(scene_);
+      const LightMatrices before = stages_.light.value_or(LightMatrices());
+      stages_.light = {next.rgb * before.rgb, next.lms * before.lms};
+      add_stamps(stage->stamps(scene_));
+    }
   }
 
   void add_filters(const OpenImage& image, const FramesOfImage& frames) {
@@ -330,6 +342,7 @@ ScenePlan plan_for(const ImageSettings& settings, const SceneNumbers& numbers,
   scene.resolution = resolution;
   const StageScene of_stages = stage_scene(settings, scene, false, true);
   std::vector<EffectDecision> decided;
+  decide(settings.light_stages, of_stages, decided);
   decide(settings.filter_stages, of_stages, decided);
   decide(settings.point_stages, of_stages, decided);
   return plan_of(settings.choice, scene.asked, statistics, decided);

@@ -47,6 +47,7 @@ struct OperatorChoice {
   StageValues stages;                     ///< wishes and values of all stages
   std::string gamut = "working";
   IlluminantChoice illuminant;
+  std::optional<Vec3<double>> lamp;  ///< XYZ of the lamp that the eye is used to, any scale
 };
 
 /// How large a pixel is to the viewer.
@@ -86,7 +87,8 @@ struct ImageSettings {
   bool sequence = false;       ///< images are frames of one
   bool measure = false;        ///< stages measure what they have done, to tell of it
   FrameStages frame_stages;    ///< before the pixel stages, in this order
-  FilterStages filter_stages;  ///< after them
+  LightStages light_stages;    ///< on what the receptors get
+  FilterStages filter_stages;  ///< after the pixel stages
   PointStages point_stages;    ///< after those that look around, before the display
 };
 

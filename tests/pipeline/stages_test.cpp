@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "adaptation/chromatic_adaptation.h"
 #include "color/colour_config.h"
 #include "pipeline/rows/threads.h"
 #include "pipeline/run.h"
@@ -191,6 +192,42 @@ TEST(DetailStage, strength_0_and_light_enough_leave_every_bit) {
   EXPECT_EQ(bits(in), bits(out));
   ImageSettings day = settings(30, "auto");
   EXPECT_FALSE(run(in, out, day).scene.plan.effect("detail").needed);
+}
+
+TEST(LampStage, takes_a_lamp_s_white_as_far_to_d65_as_the_degree_says) {
+  const std::string in = temporary("lamp.exr"), out = temporary("lamp-out.exr");
+  write_exr(in, {picture()});
+  ImageSettings s = settings(0.01, "none");
+  s.choice.lamp = Vec3<double>{1.2, 1, 0.3};
+  const ImageReport report = run(in, out, s);
+  EXPECT_TRUE(report.scene.plan.effect("lamp").runs());
+  // CIECAM02: D at 0.01 cd/m2 in an average surround.
+  EXPECT_NEAR(report.scene.plan.effect("lamp").number, 0.824052, 1e-6);
+  const Matrix3<double>& xyz = s.choice.parameters.xyz_from_rgb;
+  const Matrix3<double> m = inverse(xyz) * (adapt_to_lamp({1.2, 1, 0.3}, report.scene.plan.effect("lamp").number) * xyz);
+  std::vector<std::uint32_t> planes[3], results[3];
+  for (std::size_t c = 0; c < 3; ++c) {
+    planes[c] = read_bits(in, 0, 0, 0, std::string(1, "RGB"[c]));
+    results[c] = read_bits(out, 0, 0, 0, std::string(1, "RGB"[c]));
+  }
+  for (std::size_t i = 0; i < planes[0].size(); ++i) {
+    const Vec3<double> rgb = {std::bit_cast<float>(planes[0][i]), std::bit_cast<float>(planes[1][i]),
+                              std::bit_cast<float>(planes[2][i])};
+    const Vec3<double> expected = m * rgb;
+    for (std::size_t c = 0; c < 3; ++c)
+      ASSERT_NEAR(std::bit_cast<float>(results[c][i]), expected[c], 1e-6 * (rgb[0] + rgb[1] + rgb[2])) << i;
+  }
+}
+
+TEST(LampStage, no_lamp_or_d65_changes_no_bit) {
+  const std::string in = temporary("lamp.exr"), out = temporary("lamp-out.exr");
+  write_exr(in, {picture()});
+  for (const std::optional<Vec3<double>>& lamp : {std::optional<Vec3<double>>(), std::optional(adapted_white)}) {
+    ImageSettings s = settings(0.01, "none");
+    s.choice.lamp = lamp;
+    EXPECT_FALSE(run(in, out, s).scene.plan.effect("lamp").runs());
+    EXPECT_EQ(bits(in), bits(out));
+  }
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
 #include "cli/options/operator_options.h"
 
+#include <algorithm>
+
 #include "cli/options/values.h"
 #include "cli/scene/adaptation_method.h"
 #include "pipeline/scene/parameter_names.h"
 #include "receptors/illuminant.h"
+#include "receptors/spectral_weights.h"
 
 namespace scotopic {
 namespace {
@@ -15,6 +18,36 @@ using Names = std::vector<std::pair<std::string, T>>;
 template <typename T, std::size_t count>
 Names<T> known(const NamesOf<T, count>& names) {
   return {names.begin(), names.end()};
+}
+
+constexpr const char* whites = "lamp, a chromaticity x,y, or X,Y,Z (numbers above 0)";
+
+/// XYZ of a light, any scale.
+Vec3<double> white_of(const TabulatedCurve& light) {
+  Vec3<double> out{};
+  for (std::size_t i = 0; i < 3; ++i)
+    out[i] = integrate(light, sensitivity(all_signals[index(Signal::x) + i]));
+  return out;
+}
+
+std::optional<Vec3<double>> lamp_white(const std::string& text, const IlluminantChoice& illuminant) {
+  if (text.empty()) return std::nullopt;
+  if (text == "lamp") {
+    if (!illuminant.spectrum)
+      fail_value("--adapt-white", text, "known of an S/P ratio alone: name the illuminant, or give x,y");
+    return white_of(illuminant.spectrum->curve());
+  }
+  std::vector<double> numbers;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    const std::optional<double> number = parse_number(text.substr(at, comma - at));
+    if (!number || !(*number >= 1e-6 && *number <= 1e9)) fail_value("--adapt-white", text, whites);
+    numbers.push_back(*number);
+    at = comma + 1;
+  }
+  if (numbers.size() == 3) return Vec3<double>{numbers[0], numbers[1], numbers[2]};
+  if (numbers.size() != 2 || numbers[0] + numbers[1] >= 1) fail_value("--adapt-white", text, whites);
+  return Vec3<double>{numbers[0] / numbers[1], 1, (1 - numbers[0] - numbers[1]) / numbers[1]};
 }
 
 const Names<std::string>& gamuts() {
@@ -45,6 +78,9 @@ void add_operator_options(CLI::App& verb, OperatorOptions& o, StagesShown shown)
   add("--gamut", o.gamut, "Results stay in: working (default), rec709, rec2020, p3, ap1, none", "NAME");
   add("--illuminant", o.illuminant, "S/P ratio, spectrum (nm and power a line), or of: " + illuminant_names(),
       "NAME|S/P|FILE");
+  if (shown == StagesShown::all)
+    add("--adapt-white", o.adapt_white,
+        "White that the eye is used to: lamp (that of --illuminant), x,y or X,Y,Z (default: none, D65)", "lamp|XY|XYZ");
   add("--rods", o.rods, "Rods from colour: linear (default) or quadratic", "NAME");
 }
 
@@ -69,6 +105,7 @@ OperatorChoice understand(const OperatorOptions& o) {
   out.gamut = choice("--gamut", o.gamut, gamuts());
   out.illuminant = understand_illuminant(o.illuminant);
   p.sp_ratio = out.illuminant.sp_ratio;
+  out.lamp = lamp_white(o.adapt_white, out.illuminant);
   p.rods = choice("--rods", o.rods, known(rod_names));
   return out;
 }

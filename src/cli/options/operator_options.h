@@ -22,6 +22,7 @@ struct OperatorOptions {
   std::string luminance = "mesopic";
   std::string gamut = "working";
   std::string illuminant = "d65";
+  std::string adapt_white;
   std::string rods = "linear";
 };
 

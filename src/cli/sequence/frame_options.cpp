@@ -85,7 +85,8 @@ namespace {
 /// A pattern by itself is no file's name.
 void refuse_pattern(const std::string& input) {
   if (input.find('#') == input.npos || std::filesystem::exists(input)) return;
-  throw Error(ExitCode::usage, input, "is a pattern of a sequence's names: --frames FIRST-LAST says which frames");
+  throw Error(ExitCode::input, input,
+              "is no file; if it is a pattern of a sequence's names, --frames FIRST-LAST says which frames");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "stages/limits.h"
 #include "io/copy_pixels.h"
 #include "receptors/receptor_space.h"
 
@@ -135,6 +136,24 @@ bool LightWriter::write(LightRow& light, const NativeRow (&out)[3], const Native
     if (keeps(c) && !all) copy_where_zero(touched, (*source)[c], width, out[c]);
   }
   return true;
+}
+
+void apply_matrices(const LightMatrices& matrices, bool receptors, LightRow& light) {
+  const auto operable = [](float a, float b, float c) {
+    return std::max({std::abs(a), std::abs(b), std::abs(c)}) <= static_cast<float>(operable_limit) && a == a && b == b && c == c;
+  };
+  const auto times = [](const Matrix3<double>& m, float& a, float& b, float& c) {
+    const Vec3<double> out = m * Vec3<double>{a, b, c};
+    a = static_cast<float>(out[0]), b = static_cast<float>(out[1]), c = static_cast<float>(out[2]);
+  };
+  light.changed.resize(light.r.size(), 0);
+  for (std::size_t i = 0; i < light.r.size(); ++i) {
+    if (!operable(light.r[i], light.g[i], light.b[i])) continue;
+    if (receptors && !operable(light.cone_l[i], light.cone_m[i], light.cone_s[i])) continue;
+    times(matrices.rgb, light.r[i], light.g[i], light.b[i]);
+    if (receptors) times(matrices.lms, light.cone_l[i], light.cone_m[i], light.cone_s[i]);
+    light.changed[i] = 1;
+  }
 }
 
 std::uint64_t clipped_pixels(const LightRow& light, PixelType type) noexcept {

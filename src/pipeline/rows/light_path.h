@@ -9,6 +9,7 @@
 #include "batch/batch.h"
 #include "color/colour_config.h"
 #include "io/picture.h"
+#include "pipeline/rows/stages.h"
 
 namespace scotopic {
 
@@ -38,6 +39,9 @@ struct LightRow {
   std::vector<std::uint8_t> touched;
   std::vector<std::uint8_t> changed;  ///< where frame stages have changed light; empty: there were none
 };
+
+/// Light as matrices have it, and light.changed says which pixels; those that are not finite, or beyond 2^120, pass.
+void apply_matrices(const LightMatrices& matrices, bool receptors, LightRow& light);
 
 /// Divides colour by alpha where that is a number above 0.
 void divide_by_alpha(LightRow& row);

@@ -169,7 +169,7 @@ void PictureRun::allocate(const Band& in, Band& out, bool interleaved) const {
 // Nothing is called for, and nothing else changes values: the file's own bytes go through.
 bool PictureRun::copies() const {
   const bool nothing =
-      !stages_.evaluator && stages_.after.empty() && !frame_ && stages_.non_finite != NonFinite::clean;
+      !stages_.evaluator && stages_.after.empty() && !frame_ && !stages_.light && stages_.non_finite != NonFinite::clean;
   return nothing && writer_.keep_untouched && !reader_.receptors();
 }
 
@@ -192,11 +192,13 @@ std::vector<std::size_t> PictureRun::read_light(const Band& in, int x, int row, 
   const PixelRows pixels = light.pixels(reader_.receptors());
   std::vector<std::size_t> bad = non_finite_of(pixels);
   if (tally) tally->add(bad, source_picture_.data.x0 + x, in.y0 + row);
+  light.changed.clear();
   if (frame_) {
     frame_->replace(in.y0 + row - source_picture_.data.y0, x, light);
     bad = non_finite_of(pixels);
   }
   if (stages_.non_finite == NonFinite::clean) clean(pixels, bad);
+  if (stages_.light) apply_matrices(*stages_.light, reader_.receptors(), light);
   return bad;
 }
 

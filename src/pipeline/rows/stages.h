@@ -134,6 +134,19 @@ class RowStage {
   virtual void apply(const PixelRows& rows, const RowSight& sight, std::uint8_t* touched) const = 0;
 };
 
+/// On light before the receptors: linear working RGB, and L, M, S where the file has them. Rods keep theirs.
+struct LightMatrices {
+  Matrix3<double> rgb = identity3<double>();
+  Matrix3<double> lms = identity3<double>();
+};
+
+/// A stage that is a matrix on the light that the receptors get. Metering does not see it.
+class LightStage : public SceneStage {
+ public:
+  /// For a scene that calls for it.
+  virtual LightMatrices matrices(const StageScene& scene) const = 0;
+};
+
 /// A stage that looks at the pixels around each, after the pixel stages.
 class FilterStage : public SceneStage {
  public:
@@ -148,6 +161,7 @@ class PointStage : public SceneStage {
   virtual std::unique_ptr<const RowStage> make(const StageScene& scene, const Notes& notes) const = 0;
 };
 
+using LightStages = std::vector<std::shared_ptr<const LightStage>>;
 using FilterStages = std::vector<std::shared_ptr<const FilterStage>>;
 using PointStages = std::vector<std::shared_ptr<const PointStage>>;
 

@@ -7,6 +7,8 @@ namespace scotopic {
 
 /// Light that scatters in the eye, on whole pictures.
 void add_glare(const StageValues& values, ImageSettings& settings);
+/// What an eye sees that is used to a lamp's colour.
+void add_lamp(const StageValues& values, ImageSettings& settings);
 /// The exposure of an eye that is still adapting.
 void add_time(const StageValues& values, ImageSettings& settings);
 /// The loss of detail, by contrast or by acuity.

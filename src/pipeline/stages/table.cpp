@@ -6,6 +6,7 @@
 #include "stages/detail/description.h"
 #include "stages/display/description.h"
 #include "stages/glare/description.h"
+#include "stages/lamp/description.h"
 #include "stages/luminance/description.h"
 #include "stages/noise/description.h"
 #include "stages/shift/description.h"
@@ -31,6 +32,7 @@ void set_chroma(const StageValues& values, AppearanceParameters& p) {
 
 constexpr StageEntry table[] = {
     {&glare_description, nullptr, add_glare},
+    {&lamp_description, nullptr, add_lamp},
     {&shift_description, set_shift, nullptr},
     {&luminance_description, set_luminance, nullptr},
     {&chroma_description, set_chroma, nullptr},
