@@ -223,7 +223,7 @@ class ImageRun {
       if (!report_.scene.plan.effect(stage->name()).runs()) continue;
       const LightMatrices next = stage->matrices(scene_);
       const LightMatrices before = stages_.light.value_or(LightMatrices());
-      stages_.light = {next.rgb * before.rgb, next.lms * before.lms};
+      stages_.light = {next.rgb * before.rgb, next.lms * before.lms, next.luminance};
       add_stamps(stage->stamps(scene_));
     }
   }

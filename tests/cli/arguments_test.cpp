@@ -30,7 +30,6 @@ std::vector<std::string> apply(std::vector<std::string> more) {
 
 const std::vector<Fault>& faults() {
   static const std::vector<Fault> rows = {
-      {{}, 2, ""},
       {{"aply", "IN", "-o", "OUT"}, 2, "did you mean apply?"},
       {{"apply"}, 2, ""},
       {{"apply", "IN"}, 2, "--output"},

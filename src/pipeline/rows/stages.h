@@ -138,6 +138,7 @@ class RowStage {
 struct LightMatrices {
   Matrix3<double> rgb = identity3<double>();
   Matrix3<double> lms = identity3<double>();
+  Vec3<double> luminance = {0.2126, 0.7152, 0.0722};  ///< of RGB; what leaves the gamut fades at constant luminance
 };
 
 /// A stage that is a matrix on the light that the receptors get. Metering does not see it.

@@ -34,7 +34,7 @@ class LampStage : public LightStage {
   LightMatrices matrices(const StageScene& scene) const override {
     const Matrix3<double> m = adapt_to_lamp(*lamp_, degree(scene));
     const Matrix3<double>& xyz = scene.parameters.xyz_from_rgb;
-    return {inverse(xyz) * (m * xyz), lms_from_xyz() * (m * xyz_from_lms())};
+    return {inverse(xyz) * (m * xyz), lms_from_xyz() * (m * xyz_from_lms()), xyz[1]};
   }
 
   std::vector<Attribute> stamps(const StageScene& scene) const override {
