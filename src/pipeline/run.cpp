@@ -160,6 +160,7 @@ class ImageRun {
     SceneReport& scene = report_.scene;
     const std::string& file = image.source->file();
     see_scene(image, settings_, Statistics::where_needed, frames, scene);
+    notes_.note(file + ": " + space_text(image.layout));
     notes_.note(file + ": " + scotopic::describe(scene.numbers));
     plan(job_, image, settings_, frames.decisions(), scene);
     notes_.note(file + ": " + plan_line(scene.plan));

@@ -98,6 +98,12 @@ OpenImage open_to_read(const ImageSettings& settings, const std::string& input, 
   return image;
 }
 
+std::string space_text(const ImageLayout& layout) {
+  const LightPicture& light = layout.light.front();
+  return fmt::format("colour space {} ({}), written as {}", light.space.name, light.space_reason,
+                     layout.output_space.name);
+}
+
 void describe_layout(const PixelSource& source, const ColourConfig& config, const ImageLayout& layout,
                      const Notes& notes) {
   const LightPicture& light = layout.light.front();
@@ -106,8 +112,6 @@ void describe_layout(const PixelSource& source, const ColourConfig& config, cons
                            w.height(), source.format(), source.pictures().size(), layout.light.size()));
   notes.detail(fmt::format("config {}, working space {}", config.file().empty() ? "built in" : config.file(),
                            config.working_space()));
-  notes.detail(fmt::format("colour space {} ({}), written as {}", light.space.name, light.space_reason,
-                           layout.output_space.name));
   for (const std::string& note : layout.notes) notes.note(source.file() + ": " + note);
   for (const Attribute& a : source.attributes(light.index))
     if (a.name == "scotopic:model")

@@ -39,6 +39,8 @@ OpenImage open_image(const ImageSettings& settings, const std::string& input, co
 /// To be read only: the layout says where the light is.
 OpenImage open_to_read(const ImageSettings& settings, const std::string& input, const Notes& notes);
 
+/// Whose colours the input's are taken to be, and why; and the output's.
+std::string space_text(const ImageLayout& layout);
 /// Says what was found, and what the output cannot hold.
 void describe_layout(const PixelSource& source, const ColourConfig& config, const ImageLayout& layout,
                      const Notes& notes);
