@@ -2,6 +2,7 @@
 find_package(Threads REQUIRED)
 find_package(hwy REQUIRED)
 find_package(fmt REQUIRED)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 find_package(nlohmann_json REQUIRED)
 # Not find_package's own comparison: by these packages' rule whoever asks for 3.1 cannot use 4.0.
 set(least_OpenEXR 3.1)

@@ -29,7 +29,7 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libscotopic-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 # The program's package holds the module that reads TIFF, PNG, JPEG and HDR.
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "scotopic (= ${PROJECT_VERSION}), libopencolorio-dev (>= 2.1), \
-libopenimageio-dev (>= 2.4), libopenexr-dev (>= 3.1), liblcms2-dev, libhwy-dev, libfmt-dev, nlohmann-json3-dev, pkg-config")
+libopenimageio-dev (>= 2.4), libopenexr-dev (>= 3.1), liblcms2-dev, libssl-dev, libhwy-dev, libfmt-dev, nlohmann-json3-dev, pkg-config")
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION
 "Development files: static libraries, headers, and files for CMake and pkg-config, to use the
 operator and its looks in other programs.")

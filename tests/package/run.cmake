@@ -66,7 +66,7 @@ refuse_match("${out}" "-dev" "the program needs headers")
 field(library Depends)
 require_match("${out}" "scotopic [(]= ${VERSION}[)]" "Depends of the library")
 # Every header that CMake's and pkg-config's files lead to is in a package that this one names.
-foreach(needed libopencolorio-dev libopenimageio-dev libopenexr-dev liblcms2-dev libhwy-dev libfmt-dev nlohmann-json3-dev)
+foreach(needed libopencolorio-dev libopenimageio-dev libopenexr-dev liblcms2-dev libssl-dev libhwy-dev libfmt-dev nlohmann-json3-dev)
   require_match("${out}" "${needed}" "Depends of the library")
 endforeach()
 

@@ -9,9 +9,8 @@
 #include <filesystem>
 #include <string_view>
 
-#include "looks/config/sha256.h"
+#include "base/digest.h"
 #include "base/error.h"
-#include "io/atomic/fingerprint.h"
 #include "io/row_bands.h"
 #include "io/spectral/spectral_source.h"
 #include "pipeline/scene/stamps.h"
@@ -102,14 +101,14 @@ std::string common_recipe(const std::string& verb, const FrameJob& job, const st
   for (const std::string& option : typed) {
     text += line("option", option);
     const std::string value = option.substr(option.find('=') + 1);
-    if (is_file(value)) text += line("holds", fingerprint(value));
+    if (is_file(value)) text += line("holds", sha256_of_file(value));
   }
   return text;
 }
 
 std::string recipe_of(const std::string& common, const FramePaths& paths) {
   std::string text = common + line("output", file_name(paths.output)) + line("input", file_name(paths.input));
-  for (const std::string& file : input_files(paths.input)) text += line(file_name(file), fingerprint(file));
+  for (const std::string& file : input_files(paths.input)) text += line(file_name(file), sha256_of_file(file));
   return sha256(text);
 }
 

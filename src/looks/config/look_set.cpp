@@ -11,7 +11,7 @@
 #include "looks/lut/look_chain.h"
 #include "looks/lut/ladder.h"
 #include "looks/lut/look_matrix.h"
-#include "looks/config/sha256.h"
+#include "base/digest.h"
 
 namespace scotopic {
 namespace {

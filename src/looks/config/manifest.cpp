@@ -4,7 +4,7 @@
 #include <set>
 #include <sstream>
 
-#include "looks/config/sha256.h"
+#include "base/digest.h"
 #include "looks/verify/inspect.h"
 
 namespace scotopic {

@@ -1,6 +1,6 @@
 #include "looks/config/own_mark.h"
 
-#include "looks/config/sha256.h"
+#include "base/digest.h"
 
 namespace scotopic {
 namespace {
