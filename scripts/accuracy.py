@@ -7,6 +7,7 @@ accuracy.py measure BUILD FOLDER [ROUNDS]
 accuracy.py write FOLDER [OTHER...]
     The tables of one run; of the others, made on other machines, only the one by vector instructions.
 """
+import csv
 import json
 import os
 import pathlib
@@ -201,8 +202,7 @@ def replace(path, mark, text):
 
 def measure(build, folder, rounds):
     folder.mkdir(parents=True, exist_ok=True)
-    times = json.loads(run(build / "src/cli/scotopic", "time", "--json", "-q", "--rounds", rounds, "--plot",
-                           folder / "accuracy.svg"))
+    times = json.loads(run(build / "src/cli/scotopic", "time", "--json", "-q", "--rounds", rounds))
     times["processors"] = os.cpu_count()
     (folder / "time.json").write_text(json.dumps(times))
     (folder / "bench.json").write_text(run(build / "tests/bench_appearance", rounds, "--json"))
@@ -217,13 +217,23 @@ def read(folder):
     return part("time"), part("bench"), part("instructions")
 
 
+def draw(times, folder):
+    """docs/images/accuracy.svg from the columns of `time --csv` that the plot reads."""
+    rows = [["group", "way", "ns_per_pixel", *[""] * 6, "de00_max", *[""] * 8, "dominated"]]
+    for w in (w for w in times["ways"] if w["group"] == "operator"):
+        error = w["error"]["deltaE00"]["max"] if "error" in w else ""
+        rows.append([w["group"], w["way"], w["nanosecondsPerPixel"], *[""] * 6, error, *[""] * 8, int(w["dominated"])])
+    with open(folder / "time.csv", "w", newline="") as file:
+        csv.writer(file).writerows(rows)
+    run("gnuplot", "-c", ROOT / "scripts/plot/accuracy.gnuplot", folder / "time.csv", ROOT / "docs/images/accuracy.svg",
+        f"{processor(times)}; OpenColorIO {times['openColorIO']}")
+
+
 def write(folder, others):
     runs = [read(f) for f in [folder] + others]
     times, bench, _ = runs[0]
     instructions = next((r[2] for r in runs if r[2]), {})
-    plot = ROOT / "docs/images/accuracy.svg"
-    plot.parent.mkdir(exist_ok=True)
-    shutil.copyfile(folder / "accuracy.svg", plot)
+    draw(times, folder)
     replace(ROOT / "docs/accuracy.md", "cost", section(times, bench, instructions, runs[1:]))
     replace(ROOT / "README.md", "cost", "![Error against time](docs/images/accuracy.svg)\n\n" + summary(times))
 

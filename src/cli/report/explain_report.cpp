@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "adaptation/mesopic.h"
 #include "batch/batch.h"
 #include "stages/limits.h"
 
@@ -122,37 +121,12 @@ std::string effects_text(const ScenePlan& plan, const std::vector<double>& costs
   return text;
 }
 
-std::string luminance_svg(const SceneStatistics& s, double white_luminance, double adaptation) {
-  const std::vector<LuminanceBar> bars = luminance_bars(s, white_luminance);
-  constexpr double width = 720, height = 300, left = 20, top = 20, floor_y = 250;
-  const double low = bars.empty() ? adaptation / 2 : std::min(bars.front().from, adaptation / 2);
-  const double high = bars.empty() ? adaptation * 2 : std::max(2 * bars.back().from, adaptation * 2);
-  const auto x = [&](double luminance) {
-    const double at = std::log(std::clamp(luminance, low, high) / low) / std::log(high / low);
-    return left + (width - 2 * left) * at;
-  };
-  double greatest = 0;
-  for (const LuminanceBar& b : bars) greatest = std::max(greatest, b.share);
-  std::string svg = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
-                                "font-family=\"sans-serif\" font-size=\"11\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
-                                width, height);
-  const double mesopic_from = x(mesopic_scotopic_limit()), mesopic_to = x(mesopic_photopic_limit());
-  svg += fmt::format("<rect x=\"{:.1f}\" y=\"{}\" width=\"{:.1f}\" height=\"{}\" fill=\"#dde4f5\"/>\n<text x=\"{:.1f}\" y=\"{}\">mesopic</text>\n",
-                     mesopic_from, top, mesopic_to - mesopic_from, floor_y - top, mesopic_from + 4, top + 12);
-  for (const LuminanceBar& b : bars) {
-    const double tall = (floor_y - top - 20) * b.share / greatest;
-    svg += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#405080\"/>\n", x(b.from),
-                       floor_y - tall, std::max(1.0, x(2 * b.from) - x(b.from) - 1), tall);
-  }
-  for (int e = static_cast<int>(std::ceil(std::log10(low))); e <= std::floor(std::log10(high)); ++e)
-    svg += fmt::format("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\" stroke=\"#000\"/>\n<text x=\"{0:.1f}\" y=\"{3}\" text-anchor=\"middle\">1e{4}</text>\n",
-                       x(std::pow(10.0, e)), floor_y, floor_y + 5, floor_y + 18, e);
-  svg += fmt::format("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\" stroke=\"#c03030\" stroke-width=\"2\"/>\n"
-                     "<text x=\"{3:.1f}\" y=\"{4}\" fill=\"#c03030\">adapted to {5:.3g}</text>\n",
-                     x(adaptation), top, floor_y, x(adaptation) + 4, top + 26, adaptation);
-  svg += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">luminance, cd/m2, an octave a bar; share of pixels</text>\n</svg>\n",
-                     width / 2, height - 12);
-  return svg;
+std::string luminance_csv(const SceneStatistics& s, double white_luminance) {
+  std::string text = "from_cdm2,to_cdm2,share\n";
+  if (dark_share(s) > 0) text += fmt::format("-inf,0,{:g}\n", dark_share(s));
+  for (const LuminanceBar& b : luminance_bars(s, white_luminance))
+    text += fmt::format("{:g},{:g},{:g}\n", b.from, 2 * b.from, b.share);
+  return text;
 }
 
 }  // namespace scotopic

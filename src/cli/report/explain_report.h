@@ -1,4 +1,4 @@
-// What explain prints: the light as bars, the effects as a table, the same as a drawing.
+// What explain prints: the light as bars, the effects as a table.
 #pragma once
 
 #include <string>
@@ -31,7 +31,7 @@ std::string unit_advice(const SceneStatistics& statistics, double adaptation, do
 std::string luminance_text(const SceneStatistics& statistics, double white_luminance);
 std::string effects_text(const ScenePlan& plan, const std::vector<double>& costs);
 
-/// Bars, adaptation luminance and the mesopic range as an SVG 1.1 document.
-std::string luminance_svg(const SceneStatistics& statistics, double white_luminance, double adaptation);
+/// The bars, a row an octave; the first from -inf to 0 where there are such pixels.
+std::string luminance_csv(const SceneStatistics& statistics, double white_luminance);
 
 }  // namespace scotopic

@@ -25,8 +25,4 @@ std::string time_text(const std::vector<WayRow>& rows, const TimeConditions& con
 std::string time_csv(const std::vector<WayRow>& rows);
 nlohmann::ordered_json time_json(const std::vector<WayRow>& rows, const TimeConditions& conditions);
 
-/// Greatest CIEDE2000 against time, both logarithmic, of the rows of one group that have an error above 0;
-/// the front joined by a line, dominated ways hollow. SVG, the same bytes for the same rows.
-std::string pareto_svg(const std::vector<WayRow>& rows, const std::string& group, const std::string& caption);
-
 }  // namespace scotopic

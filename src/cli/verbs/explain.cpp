@@ -11,7 +11,6 @@
 #include "cli/report/image_report.h"
 #include "cli/program.h"
 #include "cli/scene/scene_settings.h"
-#include "io/atomic/output_file.h"
 #include "pipeline/run.h"
 
 namespace scotopic {
@@ -21,7 +20,7 @@ struct ExplainOptions {
   std::string input;
   SceneOptions scene;
   FrameOptions frames;
-  std::string plot;
+  bool csv = false;
   bool adaptations = false;
   CommonOptions common;
 };
@@ -51,7 +50,7 @@ int run_explain_config(const ExplainOptions& options, const Console& console) {
   return static_cast<int>(ExitCode::done);
 }
 
-int run_explain_image(const ExplainOptions& options, const ImageSettings& settings, std::optional<OutputFile>& plot,
+int run_explain_image(const ExplainOptions& options, const ImageSettings& settings,
                       const Console& console) {
   ImageJob job;
   job.input = options.input;
@@ -60,8 +59,10 @@ int run_explain_image(const ExplainOptions& options, const ImageSettings& settin
   const SceneNumbers& numbers = scene.numbers;
   const std::vector<double> costs = measure_costs(scene.asked, scene.plan, statistics);
   const LightNumbers light = light_of(statistics, numbers);
-  if (plot) write_text(*plot, luminance_svg(statistics, numbers.white_luminance, numbers.adaptation));
-  if (!console.json()) print(light, numbers, statistics, scene.plan, costs);
+  if (options.csv)
+    std::fputs(luminance_csv(statistics, numbers.white_luminance).c_str(), stdout);
+  else if (!console.json())
+    print(light, numbers, statistics, scene.plan, costs);
   if (const std::string advice = unit_advice(statistics, numbers.adaptation, numbers.white_luminance); !advice.empty())
     console.note(options.input + ": " + advice);
   tell_non_finite(scene.non_finite, options.input, "in none of these numbers", console);
@@ -91,10 +92,10 @@ int run_explain(const ExplainOptions& options) {
   add_stages(settings);
   set_threads(options.common.threads);
   check_places(frames, options.frames);
-  std::optional<OutputFile> plot;
-  if (!options.plot.empty()) plot.emplace(options.plot);
-  if (!frames.front().number) return run_explain_image(options, settings, plot, console);
-  return explain_frames(settings, frames, options.frames, plot, console);
+  if (!frames.front().number) return run_explain_image(options, settings, console);
+  const FramesTable table =
+      options.csv ? FramesTable::csv : console.json() ? FramesTable::none : FramesTable::bars;
+  return explain_frames(settings, frames, options.frames, table, console);
 }
 
 }  // namespace
@@ -104,7 +105,7 @@ void add_explain(CLI::App& program, Invocation& invocation) {
   CLI::App& verb = *program.add_subcommand("explain", "What light a scene holds, and what it calls for");
   verb.footer("Examples:\n"
       "  scotopic explain night.exr --white-luminance 10\n"
-      "  scotopic explain in.####.exr --frames 1-240 --white-luminance 10 --plot shot.svg\n"
+      "  scotopic explain in.####.exr --frames 1-240 --white-luminance 10 --csv > shot.csv\n"
       "  scotopic explain ocio_config/config.ocio");
   verb.add_option("input", options->input, "As for apply; or an OCIO config (.ocio): what its looks do")
       ->type_name("IN|CONFIG");
@@ -114,9 +115,10 @@ void add_explain(CLI::App& program, Invocation& invocation) {
   add_reading_frame_options(verb, options->frames);
   add_band_options(verb, options->scene.bands);
   add_input_options(verb, options->scene.image);
-  verb.add_option("--plot", options->plot, "The luminance histogram, or a sequence's adaptation, as an SVG file")
-      ->type_name("FILE");
+  CLI::Option* const csv = verb.add_flag(
+      "--csv", options->csv, "The luminance histogram, or a sequence's adaptation, as comma-separated values");
   add_common_options(verb, options->common);
+  csv->excludes(verb.get_option("--json"));
   on_command_line(verb, invocation, options, run_explain);
 }
 

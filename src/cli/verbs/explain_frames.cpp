@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "cli/report/image_report.h"
 #include "cli/sequence/adaptation_track.h"
@@ -117,6 +118,12 @@ void print(const std::vector<FrameLight>& frames, const std::vector<AdaptationTr
              shot.median, shot.frames, shot.least, shot.greatest, joined(effects));
 }
 
+void print_csv(const std::vector<FrameLight>& frames) {
+  fmt::print("frame,adaptation_cdm2,sp_ratio,effects\n");
+  for (const FrameLight& f : frames)
+    fmt::print("{},{:g},{:g},{}\n", f.frame, f.numbers.adaptation, f.sp_ratio, fmt::join(f.effects, " "));
+}
+
 nlohmann::ordered_json result_of(const std::vector<FrameLight>& frames, const std::vector<AdaptationTrace>& traces,
                                  const ShotLight& shot, const std::vector<std::string>& effects, const std::vector<PlanChange>& changes) {
   nlohmann::ordered_json out;
@@ -158,7 +165,7 @@ std::vector<PlanChange> plan_changes(const std::vector<FrameLight>& frames) {
 }
 
 int explain_frames(const ImageSettings& settings, const std::vector<Frame>& frames, const FrameOptions& options,
-                   std::optional<OutputFile>& plot, const Console& console) {
+                   FramesTable table, const Console& console) {
   std::vector<FrameLight> lights;
   std::vector<double> adaptations;
   std::optional<Error> failure;
@@ -185,15 +192,10 @@ int explain_frames(const ImageSettings& settings, const std::vector<Frame>& fram
   // As apply has it, which then looks at no frame's statistics.
   const std::vector<std::string> effects = running(plan_for(settings, of_shot, *resolution, nullptr));
   const std::vector<PlanChange> changes = plan_changes(lights);
-  if (plot) write_text(*plot, adaptation_svg(lights, shot.median, changes));
-  if (!console.json()) print(lights, traces, shot, effects, changes);
+  if (table == FramesTable::bars) print(lights, traces, shot, effects, changes);
+  if (table == FramesTable::csv) print_csv(lights);
   console.result(result_of(lights, traces, shot, effects, changes));
   return static_cast<int>(failure ? failure->code() : ExitCode::done);
-}
-
-void write_text(OutputFile& file, const std::string& text) {
-  (void)file.write(text.data(), text.size());
-  file.commit();
 }
 
 }  // namespace scotopic

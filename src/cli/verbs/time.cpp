@@ -20,7 +20,6 @@
 #include "cli/options/spectral_options.h"
 #include "cli/report/time_report.h"
 #include "cli/options/values.h"
-#include "io/atomic/output_file.h"
 #include "io/row_bands.h"
 #include "pipeline/rows/light_path.h"
 
@@ -32,7 +31,6 @@ constexpr std::size_t colours_compared = 100000;
 
 struct TimeOptions {
   std::string input;
-  std::string plot;
   std::string pixels = "8294400";
   std::string rounds = "7";
   bool csv = false;
@@ -128,11 +126,6 @@ double system_load() {
   return getloadavg(&load, 1) == 1 ? load : 0;
 }
 
-void write_text(OutputFile& file, const std::string& text) {
-  file.write(text.data(), text.size());
-  file.commit();
-}
-
 /// A line that is written over, on a terminal.
 std::function<void(int, int)> progress_line(const TimeOptions& options) {
   if (isatty(STDERR_FILENO) == 0 || options.common.quiet || options.common.json) return nullptr;
@@ -149,8 +142,6 @@ int run_time(const TimeOptions& options) {
       number_in("--pixels", options.pixels, 1 << 16, 1 << 28, "a count of 65536 to 268435456"));
   const auto rounds =
       static_cast<int>(number_in("--rounds", options.rounds, 1, 1000, "a count of 1 to 1000"));
-  std::optional<OutputFile> plot;
-  if (!options.plot.empty()) plot.emplace(options.plot);
   const ColourConfig config = config_in_force(options.image);
   set_primaries(choice, config);
   set_threads(options.common.threads);
@@ -178,8 +169,6 @@ int run_time(const TimeOptions& options) {
   c.rounds = rounds;
   const std::vector<WayRow> rows = time_contenders(contenders, c.pixels, rounds, progress_line(options));
   c.load = system_load();
-  if (plot)
-    write_text(*plot, pareto_svg(rows, "operator", fmt::format("{}; OpenColorIO {}", c.machine, c.ocio)));
   if (options.csv)
     std::fputs(time_csv(rows).c_str(), stdout);
   else if (!console.json())
@@ -194,7 +183,7 @@ void add_time(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<TimeOptions>();
   CLI::App& verb =
       *program.add_subcommand("time", "What accuracy costs: every way to compute, its error and its time");
-  verb.footer("Example: scotopic time night.exr --adaptation 0.05 --plot cost.svg");
+  verb.footer("Example: scotopic time night.exr --adaptation 0.05 --csv > cost.csv");
   verb.add_option("input", options->input,
                   "Image to time on; else a night by formula, adaptation 0.1 unless given")
       ->type_name("IN");
@@ -206,8 +195,6 @@ void add_time(CLI::App& program, Invocation& invocation) {
       ->check(whole_number(1, 10000))
       ->type_name("N")
       ->capture_default_str();
-  verb.add_option("--plot", options->plot, "Error against time of the operator's ways, as SVG")
-      ->type_name("FILE");
   CLI::Option* const csv =
       verb.add_flag("--csv", options->csv, "Comma-separated values in place of the table");
   add_operator_options(verb, options->appearance);

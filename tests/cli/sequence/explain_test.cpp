@@ -56,16 +56,25 @@ TEST_F(ExplainFrames, prints_a_table_with_bars_that_grow_with_the_light) {
   EXPECT_NE(text.find("the shot, as --adaptation-from frames takes it"), std::string::npos);
 }
 
-TEST_F(ExplainFrames, draws_it) {
+TEST_F(ExplainFrames, csv_has_a_row_for_each_frame) {
   write_frames(8, 1.6);
-  ASSERT_EQ(explain({"--plot", path("shot.svg"), "-q"}).exit_code, 0);
-  const std::string svg = bytes("shot.svg");
-  EXPECT_EQ(svg.rfind("<svg ", 0), 0u);
-  EXPECT_EQ(svg.substr(svg.size() - 7), "</svg>\n");
-  std::size_t points = 0;
-  for (std::size_t at = svg.find("<circle"); at != svg.npos; at = svg.find("<circle", at + 1)) ++points;
-  EXPECT_EQ(points, 8u);
-  EXPECT_NE(svg.find("mesopic"), std::string::npos);
+  const test::Outcome outcome = explain({"--csv", "-q"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::istringstream lines(outcome.out);
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "frame,adaptation_cdm2,sp_ratio,effects");
+  double before = 0;
+  int frames = 0;
+  for (; std::getline(lines, line); ++frames) {
+    int frame = 0;
+    double adaptation = 0, sp_ratio = 0;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%d,%lf,%lf,", &frame, &adaptation, &sp_ratio), 3) << line;
+    EXPECT_EQ(frame, frames + 1);
+    EXPECT_GT(adaptation, before);
+    before = adaptation;
+  }
+  EXPECT_EQ(frames, 8);
 }
 
 TEST_F(ExplainFrames, a_constant_shot_changes_nowhere) {
