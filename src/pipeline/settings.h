@@ -103,9 +103,6 @@ AppearanceParameters parameters_of(const OperatorChoice& choice, double adaptati
 /// Without a picture: the unit is as asked for, else such that middle grey is what the eye is adapted to.
 AppearanceParameters parameters_of(const OperatorChoice& choice, double adaptation);
 
-/// Photographic middle grey: the reflectance that a scene's log-average is taken to be.
-inline constexpr double middle_grey = 0.18;
-
 /// Error(config) for a space that the config does not have: before any file is opened.
 void check_spaces(const ImageRequest& request, const ColourConfig& config);
 

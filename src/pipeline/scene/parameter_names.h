@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "adaptation/thresholds.h"
 #include "stages/shared/parameters.h"
 
 namespace scotopic {
@@ -20,6 +21,9 @@ inline constexpr NamesOf<LuminancePolicy, 3> luminance_names = {{{"mesopic", Lum
                                                                  {"none", LuminancePolicy::none}}};
 inline constexpr NamesOf<RodEstimate, 2> rod_names = {
     {{"linear", RodEstimate::linear}, {"quadratic", RodEstimate::quadratic}}};
+
+inline constexpr NamesOf<VisibilityRule, 2> visibility_names = {
+    {{"hdrvdp2", VisibilityRule::hdrvdp2}, {"ward1997", VisibilityRule::ward1997}}};
 
 /// The name of a value.
 template <typename T, std::size_t count>

@@ -9,8 +9,8 @@
 namespace scotopic {
 
 double display_scale(const NightDisplayParameters& p) noexcept {
-  const double stops = p.strength * visibility_stops(p.adaptation, p.rule, p.viewing);
-  const double scale = p.viewing / p.adaptation * std::exp2(stops) * p.white_luminance / p.peak;
+  const double scale =
+      display_scale(DisplayLight<double>{p.adaptation, p.white_luminance, p.viewing, p.peak, p.strength}, p.rule);
   return std::abs(scale - 1) < 1e-12 ? 1 : scale;
 }
 

@@ -9,6 +9,9 @@
 //   out = x s/v (1-w) + s w                   in [0, 1): 1 is the display's peak
 #pragma once
 
+#include <cmath>
+
+#include "adaptation/closed_forms.h"
 #include "adaptation/thresholds.h"
 #include "stages/shared/parameters.h"
 
@@ -35,6 +38,19 @@ struct NightDisplayParameters {
   Matrix3<double> xyz_from_rgb = identity3<double>();      ///< of the planes
   Matrix3<double> xyz_from_display = identity3<double>();  ///< of the display's primaries
 };
+
+/// The numbers that k unit/peak is made of; V: see adaptation/closed_forms.h.
+template <class V>
+struct DisplayLight {
+  V adaptation, white_luminance, viewing, peak, strength;
+};
+/// k unit/peak.
+template <class V>
+V display_scale(const DisplayLight<V>& light, VisibilityRule rule) {
+  using std::exp2;
+  const V stops = light.strength * closed_forms::visibility_stops(light.adaptation, rule, light.viewing);
+  return light.viewing / light.adaptation * exp2(stops) * light.white_luminance / light.peak;
+}
 
 /// k unit/peak: display light, in peaks, per image value. Exactly 1 where it is 1 to rounding, so that such pictures keep
 /// their bits.

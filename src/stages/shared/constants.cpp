@@ -1,21 +1,10 @@
 #include "stages/shared/constants.h"
 
-#include "adaptation/pupil.h"
 #include "receptors/receptor_space.h"
 #include "receptors/spectrum.h"
 
 namespace scotopic {
 namespace {
-
-// T of the kernel: what one luminance unit is in the preset's own units.
-double scale_of(const AppearanceParameters& p) {
-  switch (p.model) {
-    case Model::kirk2011: return trolands_per_luminance(p.adaptation);
-    case Model::safko2019: return p.safko_scale;
-    case Model::filament2021: break;
-  }
-  return filament2021_scale;
-}
 
 double white_rod_signal(const AppearanceParameters& p) {
   // The very white the operator is given, so that a grey keeps its luminance to the last digit.
@@ -36,8 +25,8 @@ Matrix3<double> rgb_from_lms_cat02(const AppearanceParameters& p) {
 
 OperatorConstants::OperatorConstants(const AppearanceParameters& p)
     : parameters(p),
-      kernel(kernel_preset(p.model), scale_of(p)),
-      kernel_scale(scale_of(p)),
+      kernel(kernel_preset(p.model), kernel_scale_at(p, p.adaptation)),
+      kernel_scale(kernel_scale_at(p, p.adaptation)),
       lms_from_rgb(lms_from_xyz() * p.xyz_from_rgb),
       rgb_from_lms(inverse(p.xyz_from_rgb) * xyz_from_lms()),
       luminance_from_rgb(p.xyz_from_rgb[1]),

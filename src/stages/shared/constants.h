@@ -3,8 +3,9 @@
 
 #include <optional>
 
-#include "stages/shared/parameters.h"
+#include "adaptation/closed_forms.h"
 #include "kernel/kernel.h"
+#include "stages/shared/parameters.h"
 
 namespace scotopic {
 
@@ -36,6 +37,18 @@ struct OperatorConstants {
   bool project;
   bool gamut_is_rgb;                ///< the gamut is that of the RGB given: no change of primaries
 };
+
+/// T of the kernel: what one luminance unit is in the preset's own units, with the eye adapted to `adaptation` cd/m2.
+/// V: see adaptation/closed_forms.h.
+template <class V>
+V kernel_scale_at(const AppearanceParameters& p, const V& adaptation) {
+  switch (p.model) {
+    case Model::kirk2011: return closed_forms::trolands_per_luminance(adaptation);
+    case Model::safko2019: return p.safko_scale;
+    case Model::filament2021: break;
+  }
+  return filament2021_scale;
+}
 
 /// The thesis' way back to XYZ: inverse of CAT02 on peak-1 cone signals ("the matrix defined in CIECAM02").
 /// Result: linear RGB from LMS in luminance units, for Model::safko2019 alone.

@@ -9,6 +9,9 @@
 
 namespace scotopic {
 
+/// Photographic middle grey: the reflectance that a scene's log-average is taken to be.
+inline constexpr double middle_grey = 0.18;
+
 /// Whether rods take part by the luminance at each pixel, La + Y, or by La alone.
 enum class Weight { local, global };
 /// What luminance a pixel gets: that of MES2, the photopic one it came with, or the kernel's own.

@@ -1,0 +1,13 @@
+// The printers, one a language.
+#pragma once
+
+#include <string>
+
+#include "shaders/record.h"
+
+namespace scotopic::shaders {
+
+std::string dctl_text(const ShaderSpec& spec, const Record& record);
+std::string glsl_text(const ShaderSpec& spec, const Record& record);
+
+}  // namespace scotopic::shaders

@@ -1,0 +1,16 @@
+#include "shaders/shader.h"
+
+#include "shaders/languages.h"
+
+namespace scotopic {
+
+std::string shader_text(const ShaderSpec& spec, ShaderLanguage language) {
+  const shaders::Record record = shaders::record_of(spec);
+  switch (language) {
+    case ShaderLanguage::dctl: return shaders::dctl_text(spec, record);
+    case ShaderLanguage::glsl: break;
+  }
+  return shaders::glsl_text(spec, record);
+}
+
+}  // namespace scotopic

@@ -1,0 +1,48 @@
+// The operator as the text of a shader: pixel stages and the display stage, exact, from the formulas that the program runs.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "stages/display/night_display.h"
+#include "stages/shared/parameters.h"
+
+namespace scotopic {
+
+/// Languages, and the hosts that the text is laid out for.
+enum class ShaderLanguage {
+  dctl,  ///< DaVinci Resolve: a Transform DCTL with sliders
+  glsl,  ///< Flame's Matchbox: GLSL 1.20 with uniforms
+};
+
+struct ShaderLanguageName {
+  std::string_view name;
+  ShaderLanguage language;
+  std::string_view extension;  ///< of files, with the point
+};
+inline constexpr std::array<ShaderLanguageName, 2> shader_languages = {{
+    {"dctl", ShaderLanguage::dctl, ".dctl"},
+    {"glsl", ShaderLanguage::glsl, ".glsl"},
+}};
+
+/// What a shader is of. Model, weight, policy, rods, S/P ratio and gamut are fixed in its text; adaptation, white luminance
+/// and the strengths of stages that are not 0 are sliders, and stand at these values when it is loaded.
+struct ShaderSpec {
+  AppearanceParameters parameters;
+  bool white_from_adaptation = true;  ///< the slider stands at 0: middle grey is what the eye is adapted to
+  std::optional<NightDisplayParameters> display = std::nullopt;  ///< the display stage behind it; its La and unit are the operator's
+  std::string space;         ///< name of the linear RGB that goes in and comes out, for the header
+  std::string gamut;         ///< likewise, of the projection's
+  std::string display_name;  ///< likewise, of the display's primaries
+  std::string version;       ///< of the program, likewise
+};
+
+/// The text. ASCII; the same bytes for the same spec, whatever the locale.
+/// Error of the pixel against the operator in double, in float arithmetic with library functions to 2 ulp, for components
+/// of no less than 0 over 28 stops and adaptation of 0.001 to 10 cd/m2: 2e-5 of the largest component, in or out
+/// (tests/shaders). Of colours left over from a cancellation (luminance near 0 beside components of either sign): 4e-5?
+std::string shader_text(const ShaderSpec& spec, ShaderLanguage language);
+
+}  // namespace scotopic
