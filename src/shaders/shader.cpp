@@ -1,6 +1,6 @@
 #include "shaders/shader.h"
 
-#include "shaders/languages.h"
+#include "shaders/print/languages.h"
 
 namespace scotopic {
 

@@ -25,7 +25,7 @@ struct SliderText {
 inline constexpr std::array<SliderText, slider_count> slider_texts = {{
     {"adaptation", "Adaptation", "cd/m2", 1e-6, 1e4, "luminance that the eye is adapted to"},
     {"white_luminance", "White luminance", "cd/m2", 0, 1e5,
-     "what value 1 stands for; 0: adaptation/0.18, middle grey is what the eye is adapted to"},
+     "what value 1 stands for; 0: adaptation/0.18"},
     {"strength", "Strength", "", 0, 1, "of all stages but display, a linear mix of input and result"},
     {"strength_shift", "Shift", "", 0, 1, "of the colour that rods add"},
     {"strength_luminance", "Luminance", "", 0, 1, "of the luminance policy"},

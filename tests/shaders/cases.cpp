@@ -136,6 +136,23 @@ const Pixels& beyond_gamut() {
   return pixels;
 }
 
+const Pixels& remnants() {
+  static const Pixels pixels = [] {
+    std::vector<Vec3<double>> hues;
+    // Red against green and blue against both, to luminances of Rec.709 around 0.
+    for (const double off : {-0.01, -1e-4, 0.0, 1e-5, 1e-3, 0.03}) {
+      hues.push_back({1, -0.2126 / 0.7152 + off, 0});
+      hues.push_back({-0.0722 / 0.2126 + off, 0, 1});
+      hues.push_back({0.2, -(0.0722 + 0.2126 * 0.2) / 0.7152 + off, 1});
+      hues.push_back({-1, 0.2126 / 0.7152 + off, 0});
+    }
+    Pixels out;
+    add_levels(out, hues);
+    return out;
+  }();
+  return pixels;
+}
+
 std::vector<SliderValues> settings_of(const ShaderSpec& spec) {
   std::vector<double> adaptations = {1e-5, 4.9, 100};
   for (const LadderStep& step : ladder) adaptations.push_back(step.adaptation);

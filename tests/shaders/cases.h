@@ -26,6 +26,10 @@ const Pixels& light();
 /// Colours outside the gamut over the same stops: one or two components below 0, luminance above.
 const Pixels& beyond_gamut();
 
+/// What is left over from a cancellation, noise or another gamut's remnants: luminance near 0 between components of either
+/// sign.
+const Pixels& remnants();
+
 /// Every La of the ladder and beyond both its ends, white from it or given, every strength off, half and on.
 std::vector<shaders::SliderValues> settings_of(const ShaderSpec& spec);
 

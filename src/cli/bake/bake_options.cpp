@@ -62,7 +62,7 @@ double peak_of(const BakeOptions& o, const ColourConfig& config, const std::stri
 /// The display stage behind the operator, and what its result is encoded for.
 void set_display(LookSpec& spec, const BakeOptions& o, const ColourConfig& config) {
   if (o.display.empty()) return;
-  if (!spec.encoded)
+  if (!spec.encoded && o.shader.empty())
     throw Error(ExitCode::usage, "", "--display is of cubes: give --colorspace a log or display encoding (a config's views are "
                                      "bake --config's)");
   spec.display = display_of(o, config);

@@ -33,6 +33,8 @@ struct BakeOptions {
   std::string max_error;
   std::string display;
   std::string peak;
+  std::string shader;
+  std::string visibility;
 };
 
 /// Nodes a side; 0: what --size auto, and none for encoded values, leave to the error.
@@ -63,5 +65,9 @@ nlohmann::ordered_json bake_luts(const BakeOptions& o, const Console& console);
 int bake_config(const BakeOptions& o, const Console& console);
 /// bake --into CONFIG.
 int bake_into(const BakeOptions& o, const Console& console);
+/// Error(usage) for what makes no sense with --shader.
+void check_shader_options(const BakeOptions& o);
+/// bake --shader LANGUAGE.
+int bake_shader(const BakeOptions& o, const Console& console);
 
 }  // namespace scotopic

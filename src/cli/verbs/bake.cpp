@@ -1,4 +1,4 @@
-// scotopic bake: the operator as a LUT, as a config of looks, or as looks added to a studio's config.
+// scotopic bake: the operator as a LUT, as a shader, as a config of looks, or as looks added to a studio's config.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -99,7 +99,7 @@ int run_bake(const BakeOptions& o) {
   const Console console(o.common);
   if ((o.output.empty() ? 0 : 1) + (o.new_config.empty() ? 0 : 1) + (o.into.empty() ? 0 : 1) != 1)
     throw Error(ExitCode::usage, "",
-                "give one of -o FILE (a LUT), --config DIR (a whole config), --into CONFIG");
+                "give one of -o FILE (a LUT or a shader), --config DIR (a whole config), --into CONFIG");
   const auto goes_with = [](bool given, bool allowed, const char* what) {
     if (given && !allowed) throw Error(ExitCode::usage, "", what);
   };
@@ -112,6 +112,12 @@ int run_bake(const BakeOptions& o) {
   goes_with(!o.format.empty(), !o.output.empty(), "--format goes with -o");
   goes_with(!o.display.empty(), !o.output.empty(), "--display goes with -o");
   goes_with(!o.peak.empty(), !o.display.empty(), "--peak goes with --display");
+  goes_with(!o.shader.empty(), !o.output.empty(), "--shader goes with -o");
+  goes_with(!o.visibility.empty(), !o.shader.empty() && !o.display.empty(), "--visibility goes with --shader and --display night");
+  if (!o.shader.empty()) {
+    check_shader_options(o);
+    return bake_shader(o, console);
+  }
   (void)edge_of(o);
   (void)adaptations_of(o);
   (void)operator_choice(o.appearance);
@@ -132,11 +138,12 @@ nlohmann::ordered_json bake_luts(const BakeOptions& o, const Console& console) {
 void add_bake(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<BakeOptions>();
   BakeOptions& o = *options;
-  CLI::App& verb = *program.add_subcommand("bake", "The operator as a LUT, or as a config full of looks");
+  CLI::App& verb = *program.add_subcommand("bake", "The operator as a LUT, as a shader, or as a config full of looks");
   verb.footer(
       "Examples:\n"
       "  scotopic bake --adaptation 0.1 -o street.clf\n"
       "  scotopic bake --adaptation 0.1 --size 65 --max-error 0.6 -o street.clf\n"
+      "  scotopic bake --shader dctl --colorspace \"Linear Rec.709 (sRGB)\" -o scotopic.dctl\n"
       "  scotopic bake --adaptation 0.01 --colorspace ACEScct -o moon.cube\n"
       "  scotopic bake --adaptation 0.1 --colorspace \"ARRI LogC4\" --display \"night:Rec.1886 Rec.709 - Display\" -o night.cube\n"
       "  scotopic bake --adaptation ladder --beside kirk2011 --config looks/\n"
@@ -144,14 +151,17 @@ void add_bake(CLI::App& program, Invocation& invocation) {
   const auto add = [&](const char* name, std::string& value, const char* text, const char* kind) {
     return verb.add_option(name, value, text)->type_name(kind);
   };
-  add("-o,--output", o.output, "The LUT: .clf, .ctf, .spi3d or .cube", "FILE");
+  add("-o,--output", o.output, "The LUT: .clf, .ctf, .spi3d or .cube; or the shader", "FILE");
   add("--format", o.format,
       "clf, ctf, spi3d, cube; else by the extension. spi3d and cube only for encoded spaces", "NAME");
   add("--size", o.size,
       "Nodes a side: 17, 33, 65, 129, or auto: 33, and for encoded values 65 where 33 are too few (default)", "N");
   add("--display", o.display,
-      "night[:DISPLAY]: with --colorspace: as dark as the eye sees it, out come codes of this display of the config", "WHAT");
+      "night[:DISPLAY]: with --shader, or with --colorspace of an encoding: as dark as the eye sees it, for this display of the config", "WHAT");
   add("--peak", o.peak, "With --display: greatest luminance of the display (default 100; 1000 where it is for HDR)", "CDM2");
+  add("--shader", o.shader, "Instead of a LUT the text of a shader, exact, with sliders: dctl (DaVinci Resolve) or glsl (Flame)",
+      "NAME");
+  add("--visibility", o.visibility, "With --shader and --display: hdrvdp2 (default) or ward1997", "RULE");
   add("--colorspace", o.colourspace, "What the LUT takes and gives; else the config's scene_linear", "NAME");
   add("--iconfig", o.colour_config, "The config that --colorspace is of; else $OCIO, else the program's own",
       "FILE");

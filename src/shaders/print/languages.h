@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "shaders/record.h"
+#include "shaders/record/record.h"
 
 namespace scotopic::shaders {
 

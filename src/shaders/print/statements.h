@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "shaders/record.h"
+#include "shaders/record/record.h"
 
 namespace scotopic::shaders {
 

@@ -2,8 +2,8 @@
 // another host needs.
 #include <fmt/format.h>
 
-#include "shaders/header.h"
-#include "shaders/languages.h"
+#include "shaders/print/header.h"
+#include "shaders/print/languages.h"
 
 namespace scotopic::shaders {
 namespace {

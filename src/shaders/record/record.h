@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "shaders/recorded.h"
+#include "shaders/record/recorded.h"
 #include "shaders/shader.h"
 #include "shaders/sliders.h"
 

@@ -1,4 +1,4 @@
-#include "shaders/header.h"
+#include "shaders/print/header.h"
 
 #include <fmt/format.h>
 
@@ -64,9 +64,9 @@ std::string header_of(const ShaderSpec& spec, const Statements& statements, cons
       "// What a dark-adapted eye sees of a scene. {}, made by scotopic {}: bake --shader.\n"
       "//\n"
       "// Takes and gives linear RGB of the space '{}'; to CIE XYZ, Y of white 1:\n{}{}{}{}"
-      "// Exact, no LUT: where a slider or a pixel stands between two others, so does the result. In float arithmetic within\n"
-      "// 2e-5 of the pixel's largest component, in or out, of the program's result in double precision, for colours without\n"
-      "// negative components. The mesopic weight (CIE 191 MES2) is a polynomial of degree 7 in log luminance, 2e-8 off.\n"
+      "// Formulas, no LUT: in float arithmetic within 2e-5 of the pixel's largest component, in or out, of what the program\n"
+      "// computes in double; 5e-3 for colours of no light, whose luminance is what is left of a cancellation. The mesopic\n"
+      "// weight (CIE 191 MES2) is a polynomial of degree 7 in log luminance, 2e-8 off. The rest are closed forms.\n"
       "// Of neighbours and time it knows nothing: no acuity, glare, contrast, noise, adaptation in time.\n",
       what, spec.version, spec.space, matrix_of(spec.parameters.xyz_from_rgb), operator_of(spec), display_of(spec),
       sliders_of(statements));

@@ -1,7 +1,7 @@
 // Numbers that remember how they came about. One that no pixel and no slider is part of stays a plain number, in double.
 #pragma once
 
-#include "shaders/graph.h"
+#include "shaders/record/graph.h"
 
 namespace scotopic::shaders {
 

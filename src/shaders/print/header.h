@@ -4,7 +4,7 @@
 #include <string>
 
 #include "shaders/shader.h"
-#include "shaders/statements.h"
+#include "shaders/print/statements.h"
 
 namespace scotopic::shaders {
 

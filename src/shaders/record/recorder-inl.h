@@ -1,16 +1,16 @@
 // The number type whose arithmetic is written down instead of done (stages/shared/numbers-inl.h says what one is).
-#if defined(SCOTOPIC_SHADERS_RECORDER_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SCOTOPIC_SHADERS_RECORDER_INL_H_
-#undef SCOTOPIC_SHADERS_RECORDER_INL_H_
+#if defined(SCOTOPIC_SHADERS_RECORD_RECORDER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SCOTOPIC_SHADERS_RECORD_RECORDER_INL_H_
+#undef SCOTOPIC_SHADERS_RECORD_RECORDER_INL_H_
 #else
-#define SCOTOPIC_SHADERS_RECORDER_INL_H_
+#define SCOTOPIC_SHADERS_RECORD_RECORDER_INL_H_
 #endif
 
 #include <hwy/highway.h>
 
 #include <numbers>
 
-#include "shaders/bindings.h"
+#include "shaders/record/bindings.h"
 #include "stages/shared/numbers-inl.h"
 #include "stages/shared/stage_constants.h"
 

@@ -1,4 +1,4 @@
-#include "shaders/recorded.h"
+#include "shaders/record/recorded.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "shaders/header.h"
-#include "shaders/languages.h"
+#include "shaders/print/header.h"
+#include "shaders/print/languages.h"
 
 namespace scotopic::shaders {
 namespace {

@@ -1,4 +1,4 @@
-#include "shaders/graph.h"
+#include "shaders/record/graph.h"
 
 namespace scotopic::shaders {
 namespace {

@@ -1,4 +1,4 @@
-#include "shaders/statements.h"
+#include "shaders/print/statements.h"
 
 #include <algorithm>
 #include <charconv>

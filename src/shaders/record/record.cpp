@@ -1,6 +1,6 @@
-#include "shaders/record.h"
+#include "shaders/record/record.h"
 
-#include "shaders/recorder-inl.h"
+#include "shaders/record/recorder-inl.h"
 #include "stages/display/night_display-inl.h"
 #include "stages/pixel_stages-inl.h"
 

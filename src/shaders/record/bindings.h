@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "shaders/recorded.h"
+#include "shaders/record/recorded.h"
 
 namespace scotopic::shaders {
 
