@@ -13,19 +13,22 @@ namespace scotopic {
 
 /// Languages, and the hosts that the text is laid out for.
 enum class ShaderLanguage {
-  dctl,  ///< DaVinci Resolve: a Transform DCTL with sliders
-  glsl,  ///< Flame's Matchbox: GLSL 1.20 with uniforms
+  dctl,   ///< DaVinci Resolve: a Transform DCTL with sliders
+  blink,  ///< Nuke: a kernel for BlinkScript
+  glsl,   ///< Flame's Matchbox: GLSL 1.20 with uniforms
+  osl,    ///< renderers: a node of one colour in, one out
+  hlsl,   ///< ReShade, and pixel shaders of Direct3D
 };
 
 struct ShaderLanguageName {
   std::string_view name;
   ShaderLanguage language;
-  std::string_view extension;  ///< of files, with the point
 };
-inline constexpr std::array<ShaderLanguageName, 2> shader_languages = {{
-    {"dctl", ShaderLanguage::dctl, ".dctl"},
-    {"glsl", ShaderLanguage::glsl, ".glsl"},
-}};
+inline constexpr std::array<ShaderLanguageName, 5> shader_languages = {{{"dctl", ShaderLanguage::dctl},
+                                                                        {"blink", ShaderLanguage::blink},
+                                                                        {"glsl", ShaderLanguage::glsl},
+                                                                        {"osl", ShaderLanguage::osl},
+                                                                        {"hlsl", ShaderLanguage::hlsl}}};
 
 /// What a shader is of. Model, weight, policy, rods, S/P ratio and gamut are fixed in its text; adaptation, white luminance
 /// and the strengths of stages that are not 0 are sliders, and stand at these values when it is loaded.

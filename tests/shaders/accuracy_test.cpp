@@ -8,9 +8,11 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "shaders/hosts.h"
+#include "shaders/osl_grammar.h"
 
 namespace scotopic {
 namespace {
@@ -59,6 +61,40 @@ TEST(Shaders, dctl_compiled_by_clang_is_the_operator_to_2e_5) {
                [](const std::string& text) { return test::dctl_host("clang++", text); });
 }
 
+TEST(Shaders, blink_compiled_by_gcc_is_the_operator_to_2e_5) {
+  expect_exact("blink, g++", ShaderLanguage::blink, [](const std::string& text) { return test::blink_host("g++", text); });
+}
+
+TEST(Shaders, blink_compiled_by_clang_is_the_operator_to_2e_5) {
+  if (!test::have("clang++")) GTEST_SKIP() << "NOTICE: clang++ is not installed, not tested with it";
+  expect_exact("blink, clang++", ShaderLanguage::blink,
+               [](const std::string& text) { return test::blink_host("clang++", text); });
+}
+
+TEST(Shaders, hlsl_by_glslang_on_llvmpipe_is_the_operator_to_2e_5) {
+  for (const char* program : {"glslangValidator", "spirv-cross"})
+    if (!test::have(program)) GTEST_SKIP() << "NOTICE: " << program << " is not installed, not tested with it";
+  expect_exact("hlsl, llvmpipe", ShaderLanguage::hlsl, test::hlsl_host);
+}
+
+TEST(Shaders, the_arithmetic_of_osl_is_the_operator_to_2e_5) {
+  expect_exact("osl, as C++", ShaderLanguage::osl, [](const std::string& text) { return test::osl_host("g++", text); });
+}
+
+TEST(Shaders, osl_is_of_its_grammar) {
+  for (const ShaderCase& c : test::shader_cases())
+    EXPECT_EQ(test::osl_fault(shader_text(c.spec, ShaderLanguage::osl)), "") << c.name;
+}
+
+TEST(Shaders, what_is_not_of_osl_s_grammar_is_found) {
+  const std::string head = "shader s(color Cin = color(0.0, 0.0, 0.0), output color Cout = color(0.0, 0.0, 0.0)) { ";
+  EXPECT_EQ(test::osl_fault(head + "float t = Cin[0]; int b = t < 1.0 && !(t > 2.0); Cout = color(b ? t : 0.0, -t, 1e-05); }"), "");
+  for (const char* body : {"float t = Cin[0] }", "float t = Cin; }", "int b = 1.0; }", "bool b = 1; }", "float t = fmin(1.0, 2.0); }",
+                           "float t = u; }", "float t = 1.0; float t = 2.0; }", "float t = max(1.0); }", "float t = 1.0 ? 1.0 : 2.0; }",
+                           "Cout = color(0.0, 0.0); }", "Cout = color(0.0, 0.0, 0.0); "})
+    EXPECT_NE(test::osl_fault(head + body), "") << body;
+}
+
 TEST(Shaders, glsl_on_llvmpipe_is_the_operator_to_2e_5) {
   expect_exact("glsl, llvmpipe", ShaderLanguage::glsl, test::glsl_host);
 }
@@ -68,14 +104,16 @@ TEST(Shaders, a_pixel_that_is_not_finite_passes_as_it_is_and_black_stays_black) 
   const test::Pixels pixels = {0.5, infinity, 0, 0, 3, -infinity, 0, 0, 0, 0x1p121F, 1, 1, nan, 1, 2};
   const ShaderCase& whole = test::shader_cases()[5];
   const shaders::SliderValues sliders = test::settings_of(whole.spec).front();
-  for (const ShaderLanguageName& language : shader_languages) {
-    const std::string text = shader_text(whole.spec, language.language);
-    const auto shader = language.language == ShaderLanguage::glsl ? test::glsl_host(text) : test::dctl_host("g++", text);
+  for (const auto& [name, language, made] :
+       {std::tuple("dctl", ShaderLanguage::dctl, Made([](const auto& text) { return test::dctl_host("g++", text); })),
+        std::tuple("blink", ShaderLanguage::blink, Made([](const auto& text) { return test::blink_host("g++", text); })),
+        std::tuple("glsl", ShaderLanguage::glsl, Made(test::glsl_host))}) {
+    const auto shader = made(shader_text(whole.spec, language));
     const test::Pixels got = shader->show(sliders, pixels);
     // Of NaN GLSL promises nothing.
-    const std::size_t promised = pixels.size() - (language.language == ShaderLanguage::glsl ? 3 : 0);
+    const std::size_t promised = pixels.size() - (language == ShaderLanguage::glsl ? 3 : 0);
     for (std::size_t i = 0; i < promised; ++i)
-      EXPECT_TRUE(got[i] == pixels[i] || (std::isnan(got[i]) && std::isnan(pixels[i]))) << language.name << " " << i;
+      EXPECT_TRUE(got[i] == pixels[i] || (std::isnan(got[i]) && std::isnan(pixels[i]))) << name << " " << i;
   }
 }
 

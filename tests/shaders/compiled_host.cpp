@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 
@@ -34,6 +35,7 @@ class Folder {
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
   ~Folder() { fs::remove_all(path_); }
+  const fs::path& path() const { return path_; }
   fs::path operator/(const std::string& name) const { return path_ / name; }
 
  private:
@@ -53,6 +55,7 @@ class CompiledHost : public Host {
     library_ = dlopen((folder_ / "shader.so").c_str(), RTLD_NOW | RTLD_LOCAL);
     if (!library_) throw std::runtime_error(dlerror());
     run_ = reinterpret_cast<Run>(dlsym(library_, "run"));
+    slider_ = reinterpret_cast<FindSlider>(dlsym(library_, "slider"));
     if (!run_) throw std::runtime_error(dlerror());
   }
   ~CompiledHost() override {
@@ -72,20 +75,54 @@ class CompiledHost : public Host {
 
  private:
   using Run = void (*)(const float*, float*, std::size_t);
+  using FindSlider = float* (*)(const char*);
 
+  // Sliders are what the shim finds, or variables of their names.
   void set(const std::string& name, double value) {
-    if (auto* const slider = static_cast<float*>(dlsym(library_, name.c_str()))) *slider = static_cast<float>(value);
+    float* const slider = slider_ ? slider_(name.c_str()) : static_cast<float*>(dlsym(library_, name.c_str()));
+    if (slider) *slider = static_cast<float>(value);
   }
 
   Folder folder_;
   void* library_ = nullptr;
   Run run_ = nullptr;
+  FindSlider slider_ = nullptr;
 };
 
 }  // namespace
 
 std::unique_ptr<Host> dctl_host(const std::string& compiler, const std::string& text) {
   return std::make_unique<CompiledHost>(compiler, "run_dctl.cpp", text);
+}
+
+std::unique_ptr<Host> blink_host(const std::string& compiler, const std::string& text) {
+  return std::make_unique<CompiledHost>(compiler, "run_blink.cpp", text);
+}
+
+std::unique_ptr<Host> osl_host(const std::string& compiler, const std::string& text) {
+  // Parameters, "float name = value [[ ... ]],", become variables, and the rest a function of the colours.
+  static const std::regex parameter(R"(\n  float (\w+) = ([^ ]+) \[\[[^\]]*\]\],)");
+  std::string variables;
+  for (std::sregex_iterator p(text.begin(), text.end(), parameter), end; p != end; ++p)
+    variables += fmt::format("extern \"C\" {{ float {} = static_cast<float>({}); }}\n", (*p)[1].str(), (*p)[2].str());
+  std::string body = std::regex_replace(text, parameter, "");
+  body = std::regex_replace(body, std::regex(R"(shader scotopic\(\s*color Cin = color\(0.0, 0.0, 0.0\),\s*output color Cout = color\(0.0, 0.0, 0.0\)\))"),
+                            "static void scotopic(const color& Cin, color& Cout)");
+  // Numbers of OSL are floats.
+  body = std::regex_replace(body, std::regex(R"(([^\w.])(\d+(\.\d+)?(e[-+]?\d+)?|\d+\.\d*(e[-+]?\d+)?)(?![\w.\]]))"), "$1$2f");
+  return std::make_unique<CompiledHost>(compiler, "run_osl.cpp", variables + body);
+}
+
+std::unique_ptr<Host> hlsl_host(const std::string& text) {
+  const Folder folder;
+  std::ofstream(folder / "shader.hlsl") << text;
+  const std::string at = folder.path().string();
+  const std::string command = fmt::format(
+      "cd {} && {{ glslangValidator -D -V -S frag -e main -o shader.spv shader.hlsl && "
+      "spirv-cross shader.spv --version 330 --no-es --glsl-emit-ubo-as-plain-uniforms --output shader.glsl; }} >said 2>&1",
+      at);
+  if (std::system(command.c_str()) != 0) throw std::runtime_error(text_in(folder / "said"));
+  return glsl_host(text_in(folder / "shader.glsl"));
 }
 
 bool have(const std::string& program) {

@@ -5,6 +5,7 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
@@ -87,8 +88,19 @@ class GlslHost : public Host {
  private:
   static constexpr GLsizei width = 256;
 
-  void set(const char* name, double value) const {
-    glUniform1f(glGetUniformLocation(program_, name), static_cast<float>(value));
+  /// By its name, alone or behind that of a block: "adaptation", "block.adaptation".
+  void set(const std::string& wanted, double value) const {
+    GLint count = 0;
+    glGetProgramiv(program_, GL_ACTIVE_UNIFORMS, &count);
+    for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
+      char text[128] = {};
+      GLint size = 0;
+      GLenum type = 0;
+      glGetActiveUniform(program_, i, sizeof text, nullptr, &size, &type, text);
+      const std::string name = text;
+      if (type == GL_FLOAT && name.substr(name.rfind('.') + 1) == wanted)
+        glUniform1f(glGetUniformLocation(program_, text), static_cast<float>(value));
+    }
   }
 
   void render(const shaders::SliderValues& sliders, std::vector<float>& rgba, GLsizei height) const {
@@ -100,7 +112,11 @@ class GlslHost : public Host {
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target, 0);
     require(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE, "no float frame buffer");
     glUseProgram(program_);
-    for (std::size_t i = 0; i < sliders.size(); ++i) set(std::string(shaders::slider_texts[i].name).c_str(), sliders[i]);
+    for (std::size_t i = 0; i < sliders.size(); ++i) {
+      const std::string name(shaders::slider_texts[i].name);
+      set(name, sliders[i]);
+      if (sliders[i] > 0) set("log10_" + name, std::log10(sliders[i]));
+    }
     set("adsk_result_w", width);
     set("adsk_result_h", height);
     glViewport(0, 0, width, height);

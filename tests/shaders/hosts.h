@@ -19,6 +19,15 @@ class Host {
 /// A DCTL as C++, by `compiler`, with all warnings as errors.
 std::unique_ptr<Host> dctl_host(const std::string& compiler, const std::string& text);
 
+/// A Blink kernel likewise.
+std::unique_ptr<Host> blink_host(const std::string& compiler, const std::string& text);
+
+/// The body of an OSL shader likewise: its arithmetic, not its compiler.
+std::unique_ptr<Host> osl_host(const std::string& compiler, const std::string& text);
+
+/// HLSL by glslangValidator to SPIR-V, that by spirv-cross to GLSL, that as below.
+std::unique_ptr<Host> hlsl_host(const std::string& text);
+
 /// GLSL on Mesa's llvmpipe, through EGL without a window.
 std::unique_ptr<Host> glsl_host(const std::string& text);
 

@@ -159,7 +159,8 @@ void add_bake(CLI::App& program, Invocation& invocation) {
   add("--display", o.display,
       "night[:DISPLAY]: with --shader, or with --colorspace of an encoding: as dark as the eye sees it, for this display of the config", "WHAT");
   add("--peak", o.peak, "With --display: greatest luminance of the display (default 100; 1000 where it is for HDR)", "CDM2");
-  add("--shader", o.shader, "Instead of a LUT the text of a shader, exact, with sliders: dctl (DaVinci Resolve) or glsl (Flame)",
+  add("--shader", o.shader, "Instead of a LUT the text of a shader, exact, with sliders: dctl (DaVinci Resolve), blink (Nuke), "
+      "glsl (Flame), osl (renderers) or hlsl (ReShade)",
       "NAME");
   add("--visibility", o.visibility, "With --shader and --display: hdrvdp2 (default) or ward1997", "RULE");
   add("--colorspace", o.colourspace, "What the LUT takes and gives; else the config's scene_linear", "NAME");

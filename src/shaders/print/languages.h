@@ -8,6 +8,9 @@
 namespace scotopic::shaders {
 
 std::string dctl_text(const ShaderSpec& spec, const Record& record);
+std::string blink_text(const ShaderSpec& spec, const Record& record);
+std::string osl_text(const ShaderSpec& spec, const Record& record);
+std::string hlsl_text(const ShaderSpec& spec, const Record& record);
 std::string glsl_text(const ShaderSpec& spec, const Record& record);
 
 }  // namespace scotopic::shaders
