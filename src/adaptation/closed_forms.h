@@ -1,6 +1,7 @@
-// The closed forms of adaptation over a number type V: double, for the functions of pupil.h and thresholds.h, which say what
-// they are, and shaders/ to write them down in other languages. V has + - * / and comparisons with itself and double;
-// pow, log10, log2, min and chosen are found beside it, or here and in std for double.
+// The closed forms of adaptation over a number type V: double, for the functions of pupil.h and thresholds.h,
+// which say what they are, and shaders/ to write them down in other languages. V has + - * / and comparisons
+// with itself and double; pow, log10, log2, min and chosen are found beside it, or here and in std for
+// double.
 #pragma once
 
 #include <algorithm>

@@ -7,11 +7,16 @@ namespace scotopic {
 std::string shader_text(const ShaderSpec& spec, ShaderLanguage language) {
   const shaders::Record record = shaders::record_of(spec);
   switch (language) {
-    case ShaderLanguage::dctl: return shaders::dctl_text(spec, record);
-    case ShaderLanguage::blink: return shaders::blink_text(spec, record);
-    case ShaderLanguage::osl: return shaders::osl_text(spec, record);
-    case ShaderLanguage::hlsl: return shaders::hlsl_text(spec, record);
-    case ShaderLanguage::glsl: break;
+    case ShaderLanguage::dctl:
+      return shaders::dctl_text(spec, record);
+    case ShaderLanguage::blink:
+      return shaders::blink_text(spec, record);
+    case ShaderLanguage::osl:
+      return shaders::osl_text(spec, record);
+    case ShaderLanguage::hlsl:
+      return shaders::hlsl_text(spec, record);
+    case ShaderLanguage::glsl:
+      break;
   }
   return shaders::glsl_text(spec, record);
 }

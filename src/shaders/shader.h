@@ -1,4 +1,5 @@
-// The operator as the text of a shader: pixel stages and the display stage, exact, from the formulas that the program runs.
+// The operator as the text of a shader: pixel stages and the display stage, exact, from the formulas that the
+// program runs.
 #pragma once
 
 #include <array>
@@ -30,12 +31,14 @@ inline constexpr std::array<ShaderLanguageName, 5> shader_languages = {{{"dctl",
                                                                         {"osl", ShaderLanguage::osl},
                                                                         {"hlsl", ShaderLanguage::hlsl}}};
 
-/// What a shader is of. Model, weight, policy, rods, S/P ratio and gamut are fixed in its text; adaptation, white luminance
-/// and the strengths of stages that are not 0 are sliders, and stand at these values when it is loaded.
+/// What a shader is of. Model, weight, policy, rods, S/P ratio and gamut are fixed in its text; adaptation,
+/// white luminance and the strengths of stages that are not 0 are sliders, and stand at these values when it
+/// is loaded.
 struct ShaderSpec {
   AppearanceParameters parameters;
   bool white_from_adaptation = true;  ///< the slider stands at 0: middle grey is what the eye is adapted to
-  std::optional<NightDisplayParameters> display = std::nullopt;  ///< the display stage behind it; its La and unit are the operator's
+  std::optional<NightDisplayParameters> display =
+      std::nullopt;          ///< the display stage behind it; its La and unit are the operator's
   std::string space;         ///< name of the linear RGB that goes in and comes out, for the header
   std::string gamut;         ///< likewise, of the projection's
   std::string display_name;  ///< likewise, of the display's primaries
@@ -43,9 +46,10 @@ struct ShaderSpec {
 };
 
 /// The text. ASCII; the same bytes for the same spec, whatever the locale.
-/// Error against the operator in double, in float arithmetic with library functions to 2 ulp, over 28 stops and adaptation
-/// of 1e-5 to 100 cd/m2, at every strength: 2e-5 of the pixel's largest component, in or out (measured: 3e-6, outside the
-/// gamut 6e-6); 5e-3 for colours of no light, whose luminance is what is left of a cancellation (tests/shaders).
+/// Error against the operator in double, in float arithmetic with library functions to 2 ulp, over 28 stops
+/// and adaptation of 1e-5 to 100 cd/m2, at every strength: 2e-5 of the pixel's largest component, in or out
+/// (measured: 3e-6, outside the gamut 6e-6); 5e-3 for colours of no light, whose luminance is what is left of
+/// a cancellation (tests/shaders).
 std::string shader_text(const ShaderSpec& spec, ShaderLanguage language);
 
 }  // namespace scotopic

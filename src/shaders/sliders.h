@@ -8,8 +8,15 @@
 namespace scotopic::shaders {
 
 enum class Slider : std::size_t {
-  adaptation, white_luminance, strength, strength_shift, strength_luminance, strength_chroma,
-  strength_display, viewing, peak
+  adaptation,
+  white_luminance,
+  strength,
+  strength_shift,
+  strength_luminance,
+  strength_chroma,
+  strength_display,
+  viewing,
+  peak
 };
 inline constexpr std::size_t slider_count = 9;
 
@@ -24,13 +31,13 @@ struct SliderText {
 
 inline constexpr std::array<SliderText, slider_count> slider_texts = {{
     {"adaptation", "Adaptation", "cd/m2", 1e-6, 1e4, "luminance that the eye is adapted to"},
-    {"white_luminance", "White luminance", "cd/m2", 0, 1e5,
-     "what value 1 stands for; 0: adaptation/0.18"},
+    {"white_luminance", "White luminance", "cd/m2", 0, 1e5, "what value 1 stands for; 0: adaptation/0.18"},
     {"strength", "Strength", "", 0, 1, "of all stages but display, a linear mix of input and result"},
     {"strength_shift", "Shift", "", 0, 1, "of the colour that rods add"},
     {"strength_luminance", "Luminance", "", 0, 1, "of the luminance policy"},
     {"strength_chroma", "Chroma", "", 0, 1, "of the loss of colour"},
-    {"strength_display", "Display", "", 0, 1, "of how much darker the display shows what the eye sees less of"},
+    {"strength_display", "Display", "", 0, 1,
+     "of how much darker the display shows what the eye sees less of"},
     {"viewing", "Viewing adaptation", "cd/m2", 1e-3, 1e4, "what eyes at the display are adapted to"},
     {"peak", "Display peak", "cd/m2", 1, 1e4, "luminance of the display at value 1 of the result"},
 }};

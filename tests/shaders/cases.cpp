@@ -51,7 +51,8 @@ AppearanceParameters parameters_at(const ShaderSpec& spec, const SliderValues& s
   p.adaptation = of(s, Slider::adaptation);
   p.white_luminance = white > 0 ? white : p.adaptation / middle_grey;
   p.strength = {of(s, Slider::strength), p.strength.shift * of(s, Slider::strength_shift),
-                p.strength.luminance * of(s, Slider::strength_luminance), p.strength.chroma * of(s, Slider::strength_chroma)};
+                p.strength.luminance * of(s, Slider::strength_luminance),
+                p.strength.chroma * of(s, Slider::strength_chroma)};
   return p;
 }
 
@@ -80,23 +81,44 @@ const std::vector<ShaderCase>& shader_cases() {
     return std::vector<ShaderCase>{
         case_of("shift", rec709, [&](ShaderSpec& s) { off(s).shift = 1; }),
         case_of("shift, gamut rec709 of ap1", ap1,
-                [&](ShaderSpec& s) { off(s).shift = 1; s.parameters.xyz_from_gamut = rec709; }),
-        case_of("shift, no gamut", rec709, [&](ShaderSpec& s) { off(s).shift = 1; s.parameters.xyz_from_gamut.reset(); }),
+                [&](ShaderSpec& s) {
+                  off(s).shift = 1;
+                  s.parameters.xyz_from_gamut = rec709;
+                }),
+        case_of("shift, no gamut", rec709,
+                [&](ShaderSpec& s) {
+                  off(s).shift = 1;
+                  s.parameters.xyz_from_gamut.reset();
+                }),
         case_of("luminance mesopic", rec709, [&](ShaderSpec& s) { off(s).luminance = 1; }),
         case_of("chroma", rec709, [&](ShaderSpec& s) { off(s).chroma = 1; }),
         case_of("filament2021, all", rec709, [](ShaderSpec&) {}),
         case_of("filament2021, all, of ap1", ap1, [](ShaderSpec&) {}),
         case_of("kirk2011, all", rec709, [](ShaderSpec& s) { s.parameters.model = Model::kirk2011; }),
-        case_of("safko2019", rec709, [](ShaderSpec& s) { s.parameters.model = Model::safko2019; s.parameters.safko_scale = 20; }),
+        case_of("safko2019", rec709,
+                [](ShaderSpec& s) {
+                  s.parameters.model = Model::safko2019;
+                  s.parameters.safko_scale = 20;
+                }),
         case_of("global weight, photopic", rec709,
-                [](ShaderSpec& s) { s.parameters.weight = Weight::global; s.parameters.luminance = LuminancePolicy::photopic; }),
+                [](ShaderSpec& s) {
+                  s.parameters.weight = Weight::global;
+                  s.parameters.luminance = LuminancePolicy::photopic;
+                }),
         case_of("quadratic rods, S/P 1.4", rec709,
-                [](ShaderSpec& s) { s.parameters.rods = RodEstimate::quadratic; s.parameters.sp_ratio = 1.4; }),
-        case_of("all, display hdrvdp2", rec709, [](ShaderSpec& s) { s.display = display_of(s, VisibilityRule::hdrvdp2); }),
+                [](ShaderSpec& s) {
+                  s.parameters.rods = RodEstimate::quadratic;
+                  s.parameters.sp_ratio = 1.4;
+                }),
+        case_of("all, display hdrvdp2", rec709,
+                [](ShaderSpec& s) { s.display = display_of(s, VisibilityRule::hdrvdp2); }),
         case_of("all, display ward1997, of ap1", ap1,
                 [](ShaderSpec& s) { s.display = display_of(s, VisibilityRule::ward1997); }),
         case_of("display alone", rec709,
-                [&](ShaderSpec& s) { off(s); s.display = display_of(s, VisibilityRule::hdrvdp2); }),
+                [&](ShaderSpec& s) {
+                  off(s);
+                  s.display = display_of(s, VisibilityRule::hdrvdp2);
+                }),
     };
   }();
   return all;
@@ -157,7 +179,8 @@ std::vector<SliderValues> settings_of(const ShaderSpec& spec) {
   std::vector<double> adaptations = {1e-5, 4.9, 100};
   for (const LadderStep& step : ladder) adaptations.push_back(step.adaptation);
   std::vector<SliderValues> out;
-  const auto add = [&](double adaptation, double white, const std::array<double, 4>& strengths, double display) {
+  const auto add = [&](double adaptation, double white, const std::array<double, 4>& strengths,
+                       double display) {
     out.push_back({adaptation, white, strengths[0], strengths[1], strengths[2], strengths[3], display,
                    display == 1 ? viewing_adaptation : 30.0, display == 1 ? 100.0 : 1000.0});
   };
@@ -192,7 +215,8 @@ Worst worst_of(const ShaderSpec& spec, const Pixels& pixels, const Shown& shown)
   for (const SliderValues& sliders : settings_of(spec)) {
     const std::vector<double> want = wanted(spec, sliders, pixels);
     const Pixels got = shown(sliders, pixels);
-    if (got.size() != want.size()) return {std::numeric_limits<double>::infinity(), "another number of pixels"};
+    if (got.size() != want.size())
+      return {std::numeric_limits<double>::infinity(), "another number of pixels"};
     for (std::size_t i = 0; i < want.size(); i += 3) {
       Vec3<double> in = {pixels[i], pixels[i + 1], pixels[i + 2]};
       if (spec.display) in = night_display(display_at(spec, sliders), in);
@@ -201,9 +225,10 @@ Worst worst_of(const ShaderSpec& spec, const Pixels& pixels, const Shown& shown)
         const double error = std::abs(static_cast<double>(got[i + c]) - want[i + c]) / scale;
         if (!(error > worst.error) && !std::isnan(error)) continue;
         worst.error = std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
-        worst.place = fmt::format("({:.4g}, {:.4g}, {:.4g}) at La {:g}, W {:g}, strengths {:g} {:g} {:g} {:g} {:g}", pixels[i],
-                                  pixels[i + 1], pixels[i + 2], sliders[0], sliders[1], sliders[2], sliders[3], sliders[4],
-                                  sliders[5], sliders[6]);
+        worst.place =
+            fmt::format("({:.4g}, {:.4g}, {:.4g}) at La {:g}, W {:g}, strengths {:g} {:g} {:g} {:g} {:g}",
+                        pixels[i], pixels[i + 1], pixels[i + 2], sliders[0], sliders[1], sliders[2],
+                        sliders[3], sliders[4], sliders[5], sliders[6]);
       }
     }
   }

@@ -47,7 +47,8 @@ class CompiledHost : public Host {
   CompiledHost(const std::string& compiler, const std::string& runner, const std::string& text) {
     std::ofstream(folder_ / "shader.txt") << text;
     const std::string command = fmt::format(
-        "{} -std=c++17 -O1 -fPIC -shared -ffp-contract=off -Wall -Werror -Wdouble-promotion -Wfloat-conversion "
+        "{} -std=c++17 -O1 -fPIC -shared -ffp-contract=off -Wall -Werror -Wdouble-promotion "
+        "-Wfloat-conversion "
         "-I{}/tests/shaders/shims -DSHADER='\"{}\"' {}/tests/shaders/shims/{} -o {} >{} 2>&1",
         compiler, SCOTOPIC_SOURCE_DIR, (folder_ / "shader.txt").string(), SCOTOPIC_SOURCE_DIR, runner,
         (folder_ / "shader.so").string(), (folder_ / "said").string());
@@ -79,7 +80,8 @@ class CompiledHost : public Host {
 
   // Sliders are what the shim finds, or variables of their names.
   void set(const std::string& name, double value) {
-    float* const slider = slider_ ? slider_(name.c_str()) : static_cast<float*>(dlsym(library_, name.c_str()));
+    float* const slider =
+        slider_ ? slider_(name.c_str()) : static_cast<float*>(dlsym(library_, name.c_str()));
     if (slider) *slider = static_cast<float>(value);
   }
 
@@ -104,12 +106,17 @@ std::unique_ptr<Host> osl_host(const std::string& compiler, const std::string& t
   static const std::regex parameter(R"(\n  float (\w+) = ([^ ]+) \[\[[^\]]*\]\],)");
   std::string variables;
   for (std::sregex_iterator p(text.begin(), text.end(), parameter), end; p != end; ++p)
-    variables += fmt::format("extern \"C\" {{ float {} = static_cast<float>({}); }}\n", (*p)[1].str(), (*p)[2].str());
+    variables +=
+        fmt::format("extern \"C\" {{ float {} = static_cast<float>({}); }}\n", (*p)[1].str(), (*p)[2].str());
   std::string body = std::regex_replace(text, parameter, "");
-  body = std::regex_replace(body, std::regex(R"(shader scotopic\(\s*color Cin = color\(0.0, 0.0, 0.0\),\s*output color Cout = color\(0.0, 0.0, 0.0\)\))"),
-                            "static void scotopic(const color& Cin, color& Cout)");
+  const std::string black = R"(color\(0.0, 0.0, 0.0\))";
+  body = std::regex_replace(
+      body,
+      std::regex(R"(shader scotopic\(\s*color Cin = )" + black + R"(,\s*output color Cout = )" + black + R"(\))"),
+      "static void scotopic(const color& Cin, color& Cout)");
   // Numbers of OSL are floats.
-  body = std::regex_replace(body, std::regex(R"(([^\w.])(\d+(\.\d+)?(e[-+]?\d+)?|\d+\.\d*(e[-+]?\d+)?)(?![\w.\]]))"), "$1$2f");
+  body = std::regex_replace(
+      body, std::regex(R"(([^\w.])(\d+(\.\d+)?(e[-+]?\d+)?|\d+\.\d*(e[-+]?\d+)?)(?![\w.\]]))"), "$1$2f");
   return std::make_unique<CompiledHost>(compiler, "run_osl.cpp", variables + body);
 }
 
@@ -119,7 +126,8 @@ std::unique_ptr<Host> hlsl_host(const std::string& text) {
   const std::string at = folder.path().string();
   const std::string command = fmt::format(
       "cd {} && {{ glslangValidator -D -V -S frag -e main -o shader.spv shader.hlsl && "
-      "spirv-cross shader.spv --version 330 --no-es --glsl-emit-ubo-as-plain-uniforms --output shader.glsl; }} >said 2>&1",
+      "spirv-cross shader.spv --version 330 --no-es --glsl-emit-ubo-as-plain-uniforms --output shader.glsl; "
+      "}} >said 2>&1",
       at);
   if (std::system(command.c_str()) != 0) throw std::runtime_error(text_in(folder / "said"));
   return glsl_host(text_in(folder / "shader.glsl"));

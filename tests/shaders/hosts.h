@@ -8,7 +8,8 @@
 
 namespace scotopic::test {
 
-/// A shader that has been compiled. Throws std::runtime_error with the compiler's own words where it cannot be.
+/// A shader that has been compiled. Throws std::runtime_error with the compiler's own words where it cannot
+/// be.
 class Host {
  public:
   virtual ~Host() = default;

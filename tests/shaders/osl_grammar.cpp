@@ -15,8 +15,8 @@ bool arithmetic(Type type) { return type != Type::text; }
 Type wider(Type a, Type b) { return a < b ? b : a; }
 
 /// Functions of float, by how many arguments they take.
-const std::map<std::string, std::size_t> functions = {{"min", 2},  {"max", 2}, {"fabs", 1}, {"sqrt", 1},
-                                                      {"exp", 1},  {"log", 1}, {"pow", 2}};
+const std::map<std::string, std::size_t> functions = {{"min", 2}, {"max", 2}, {"fabs", 1}, {"sqrt", 1},
+                                                      {"exp", 1}, {"log", 1}, {"pow", 2}};
 
 class Parser {
  public:
@@ -42,7 +42,9 @@ class Parser {
   // Words: names, numbers, strings, signs.
   void split() {
     for (std::size_t i = 0; i < text_.size();) {
-      const auto is = [&](std::size_t k, auto test) { return k < text_.size() && test(static_cast<unsigned char>(text_[k])); };
+      const auto is = [&](std::size_t k, auto test) {
+        return k < text_.size() && test(static_cast<unsigned char>(text_[k]));
+      };
       std::size_t end = i + 1;
       if (is(i, [](int c) { return std::isspace(c) != 0; })) {
         ++i;

@@ -1,5 +1,5 @@
-// As much of OSL's grammar and types as shaders of ours use, from the Open Shading Language specification 1.12, chapters 4
-// to 6: no oslc is in Debian 12 and 13.
+// As much of OSL's grammar and types as shaders of ours use, from the Open Shading Language
+// specification 1.12, chapters 4 to 6: no oslc is in Debian 12 and 13.
 #pragma once
 
 #include <string>

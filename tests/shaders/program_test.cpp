@@ -31,20 +31,21 @@ TEST_F(BakeShader, what_makes_no_sense_is_refused_with_its_reason) {
     std::vector<std::string> arguments;
     int code;
     const char* why;
-  } rows[] = {{{"--shader", "dctk"}, 2, "did you mean dctl?"},
-              {{"--shader", "dctl", "--adaptation", "ladder"}, 2, "slider"},
-              {{"--shader", "dctl", "--adaptation", "1", "--adaptation", "2"}, 2, "slider"},
-              {{"--shader", "dctl", "--size", "65"}, 2, "--size is of LUTs"},
-              {{"--shader", "dctl", "--format", "clf"}, 2, "--format is of LUTs"},
-              {{"--shader", "dctl", "--max-error", "1"}, 2, "--max-error is of LUTs"},
-              {{"--shader", "dctl", "--display", "sRGB"}, 2, "night:DISPLAY"},
-              {{"--shader", "dctl", "--visibility", "ward1997"}, 2, "--display night"},
-              {{"--shader", "dctl", "--display", "night", "--visibility", "ward"}, 2, "did you mean ward1997?"},
-              {{"--shader", "dctl", "--colorspace", "ACEScct"}, 2, "not linear light"},
-              {{"--shader", "dctl", "--effects", "acuity"}, 2, "acuity"},
-              {{"--shader", "dctl", "--effects", "glare"}, 2, "glare"},
-              {{"--adaptation", "1", "--visibility", "ward1997"}, 2, "--shader"},
-              {{"--shader", "dctl", "--colorspace", "nowhere"}, 6, "nowhere"}};
+  } rows[] = {
+      {{"--shader", "dctk"}, 2, "did you mean dctl?"},
+      {{"--shader", "dctl", "--adaptation", "ladder"}, 2, "slider"},
+      {{"--shader", "dctl", "--adaptation", "1", "--adaptation", "2"}, 2, "slider"},
+      {{"--shader", "dctl", "--size", "65"}, 2, "--size is of LUTs"},
+      {{"--shader", "dctl", "--format", "clf"}, 2, "--format is of LUTs"},
+      {{"--shader", "dctl", "--max-error", "1"}, 2, "--max-error is of LUTs"},
+      {{"--shader", "dctl", "--display", "sRGB"}, 2, "night:DISPLAY"},
+      {{"--shader", "dctl", "--visibility", "ward1997"}, 2, "--display night"},
+      {{"--shader", "dctl", "--display", "night", "--visibility", "ward"}, 2, "did you mean ward1997?"},
+      {{"--shader", "dctl", "--colorspace", "ACEScct"}, 2, "not linear light"},
+      {{"--shader", "dctl", "--effects", "acuity"}, 2, "acuity"},
+      {{"--shader", "dctl", "--effects", "glare"}, 2, "glare"},
+      {{"--adaptation", "1", "--visibility", "ward1997"}, 2, "--shader"},
+      {{"--shader", "dctl", "--colorspace", "nowhere"}, 6, "nowhere"}};
   for (const auto& row : rows) {
     const Outcome outcome = run_program(bake(row.arguments));
     EXPECT_EQ(outcome.exit_code, row.code) << row.why << ": " << outcome.err;
@@ -55,10 +56,14 @@ TEST_F(BakeShader, what_makes_no_sense_is_refused_with_its_reason) {
 }
 
 TEST_F(BakeShader, what_it_writes_is_the_operator_that_was_asked_for) {
-  const Outcome outcome = run_program(bake({"--shader", "dctl", "--colorspace", "ACEScg", "--adaptation", "moon", "--model",
-                                            "kirk2011", "--strength-chroma", "0.5", "--display", "night:Display P3 - Display"}));
+  const Outcome outcome =
+      run_program(bake({"--shader", "dctl", "--colorspace", "ACEScg", "--adaptation", "moon", "--model",
+                        "kirk2011", "--strength-chroma", "0.5", "--display", "night:Display P3 - Display"}));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(outcome.err.find("takes and gives linear 'ACEScg', gives light of 'Display P3 - Display', linear"), std::string::npos) << outcome.err;
+  EXPECT_NE(
+      outcome.err.find("takes and gives linear 'ACEScg', gives light of 'Display P3 - Display', linear"),
+      std::string::npos)
+      << outcome.err;
   ShaderSpec spec;
   spec.parameters.model = Model::kirk2011;
   spec.parameters.xyz_from_rgb = gamut_xyz_matrix("ap1").value();

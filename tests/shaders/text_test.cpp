@@ -7,9 +7,9 @@
 #include <string>
 
 #include "color/primaries.h"
+#include "shaders/print/statements.h"
 #include "shaders/record/recorded.h"
 #include "shaders/shader.h"
-#include "shaders/print/statements.h"
 
 namespace scotopic {
 namespace {
@@ -29,8 +29,8 @@ bool has(const std::string& text, const std::string& what) { return text.find(wh
 TEST(ShaderText, says_what_goes_in_what_it_is_of_and_who_made_it) {
   for (const ShaderLanguageName& language : shader_languages) {
     const std::string text = shader_text(usual(), language.language);
-    for (const char* said : {"'Linear Rec.709 (sRGB)'", "scotopic 1.2.3", "filament2021", "shift, luminance, chroma", "0.4123908 R",
-                             "no display stage", "2e-5"})
+    for (const char* said : {"'Linear Rec.709 (sRGB)'", "scotopic 1.2.3", "filament2021",
+                             "shift, luminance, chroma", "0.4123908 R", "no display stage", "2e-5"})
       EXPECT_TRUE(has(text, said)) << language.name << " does not say " << said;
   }
 }
@@ -40,10 +40,11 @@ TEST(ShaderText, has_sliders_for_what_is_in_it_and_for_nothing_else) {
     const char* slider;
     bool whole, chroma_alone, safko, displayed;
   };
-  const Row rows[] = {{"adaptation", true, true, false, true},          {"white_luminance", true, true, true, true},
-                      {"strength_shift", true, false, false, true},     {"strength_luminance", true, false, false, true},
-                      {"strength_chroma", true, true, false, true},     {"strength_display", false, false, false, true},
-                      {"viewing", false, false, false, true},           {"peak", false, false, false, true}};
+  const Row rows[] = {
+      {"adaptation", true, true, false, true},      {"white_luminance", true, true, true, true},
+      {"strength_shift", true, false, false, true}, {"strength_luminance", true, false, false, true},
+      {"strength_chroma", true, true, false, true}, {"strength_display", false, false, false, true},
+      {"viewing", false, false, false, true},       {"peak", false, false, false, true}};
   ShaderSpec chroma = usual(), safko = usual(), displayed = usual();
   chroma.parameters.strength = {1, 0, 0, 1};
   safko.parameters.model = Model::safko2019;
@@ -76,7 +77,8 @@ TEST(ShaderText, sliders_stand_where_the_parameters_are) {
 TEST(ShaderText, is_ascii_and_the_same_in_every_locale) {
   for (const ShaderLanguageName& language : shader_languages) {
     const std::string text = shader_text(usual(), language.language);
-    EXPECT_TRUE(std::all_of(text.begin(), text.end(), [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }));
+    EXPECT_TRUE(
+        std::all_of(text.begin(), text.end(), [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }));
     for (const char* locale : {"de_DE.UTF-8", "C.UTF-8"}) {
       if (!std::setlocale(LC_ALL, locale)) continue;
       EXPECT_EQ(shader_text(usual(), language.language), text) << locale;

@@ -20,23 +20,27 @@ ShaderLanguage language_of(const BakeOptions& o) {
 double adaptation_of(const BakeOptions& o) {
   if (o.adaptations.empty()) return AppearanceParameters().adaptation;
   const std::vector<double> given = adaptations_of(o);
-  if (given.size() > 1) fail_value("--adaptation", o.adaptations.back(), "one luminance: in a shader it is a slider");
+  if (given.size() > 1)
+    fail_value("--adaptation", o.adaptations.back(), "one luminance: in a shader it is a slider");
   return given.front();
 }
 
 VisibilityRule visibility_of(const BakeOptions& o) {
   if (o.visibility.empty()) return NightDisplayParameters().rule;
-  return choice<VisibilityRule>("--visibility", o.visibility, {visibility_names.begin(), visibility_names.end()});
+  return choice<VisibilityRule>("--visibility", o.visibility,
+                                {visibility_names.begin(), visibility_names.end()});
 }
 
 ShaderSpec shader_spec(const BakeOptions& o, const ColourConfig& config) {
   const OperatorChoice choice = operator_choice(o.appearance);
   const LookSpec look = spec_for(choice, o, config, adaptation_of(o));
   if (look.encoded)
-    throw Error(ExitCode::usage, "",
-                fmt::format("'{}' is not linear light, which a shader takes: give a linear --colorspace, and convert to it "
-                            "before the shader",
-                            look.space));
+    throw Error(
+        ExitCode::usage, "",
+        fmt::format(
+            "'{}' is not linear light, which a shader takes: give a linear --colorspace, and convert to it "
+            "before the shader",
+            look.space));
   ShaderSpec spec;
   spec.parameters = look.parameters;
   spec.white_from_adaptation = !choice.white_luminance;
@@ -67,15 +71,17 @@ void check_shader_options(const BakeOptions& o) {
 }
 
 int bake_shader(const BakeOptions& o, const Console& console) {
-  const ColourConfig config = ColourConfig::in_force(o.colour_config, o.limits, working_primaries(o.working_primaries));
+  const ColourConfig config =
+      ColourConfig::in_force(o.colour_config, o.limits, working_primaries(o.working_primaries));
   const ShaderSpec spec = shader_spec(o, config);
   const std::string text = shader_text(spec, language_of(o));
   OutputSet set;
   OutputFile& file = set.open(o.output);
   OutputSet::write(file, text);
   set.commit();
-  console.note(fmt::format("{}: takes and gives linear '{}'{}", o.output, spec.space,
-                           spec.display ? ", gives light of '" + spec.display_name + "', linear, 1 = its peak" : ""));
+  console.note(
+      fmt::format("{}: takes and gives linear '{}'{}", o.output, spec.space,
+                  spec.display ? ", gives light of '" + spec.display_name + "', linear, 1 = its peak" : ""));
   console.result({{"shader",
                    {{"language", o.shader},
                     {"output", o.output},

@@ -35,8 +35,10 @@ std::string blink_text(const ShaderSpec& spec, const Record& record) {
   return header_of(spec, s, "A BlinkScript kernel for Nuke") +
          "\nkernel Scotopic : ImageComputationKernel<ePixelWise>\n{\n"
          "  Image<eRead, eAccessPoint, eEdgeClamped> src;\n  Image<eWrite> dst;\n\n" +
-         members_of(s) + "\n" + define_of(s, record) + "\n  void init() {\n" + assignments_of(s.of_sliders, "    ") +
-         "  }\n\n  void process() {\n    SampleType(src) pixel = src();\n    float r = pixel.x;\n    float g = pixel.y;\n"
+         members_of(s) + "\n" + define_of(s, record) + "\n  void init() {\n" +
+         assignments_of(s.of_sliders, "    ") +
+         "  }\n\n  void process() {\n    SampleType(src) pixel = src();\n    float r = pixel.x;\n    float g "
+         "= pixel.y;\n"
          "    float b = pixel.z;\n" +
          text_of(s.of_pixel, "    ") +
          fmt::format("    dst() = float4({}, {}, {}, pixel.w);\n  }}\n}};\n", s.out[0], s.out[1], s.out[2]);

@@ -1,5 +1,5 @@
-// GLSL 1.20 laid out as a Matchbox shader of Flame: the input is `front`; sliders are uniforms. Its function is all
-// another host needs.
+// GLSL 1.20 laid out as a Matchbox shader of Flame: the input is `front`; sliders are uniforms. Its function
+// is all another host needs.
 #include <fmt/format.h>
 
 #include "shaders/print/header.h"
@@ -23,7 +23,8 @@ std::string uniforms_of(const Statements& statements, const Record& record) {
 std::string glsl_text(const ShaderSpec& spec, const Record& record) {
   const Statements s = statements_of(record, spelling);
   return "#version 120\n" + header_of(spec, s, "GLSL, for Flame's Matchbox and others") +
-         "\nuniform sampler2D front;\nuniform float adsk_result_w, adsk_result_h;\n" + uniforms_of(s, record) +
+         "\nuniform sampler2D front;\nuniform float adsk_result_w, adsk_result_h;\n" +
+         uniforms_of(s, record) +
          "\nvec3 scotopic(vec3 rgb)\n{\n  float r = rgb.x;\n  float g = rgb.y;\n  float b = rgb.z;\n"
          "  // the same for every pixel\n" +
          text_of(s.of_sliders, "  ") + text_of(s.of_pixel, "  ") +

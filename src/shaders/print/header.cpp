@@ -35,15 +35,19 @@ std::string operator_of(const ShaderSpec& spec) {
   else
     out += fmt::format(" Weight {}, luminance policy {}, gamut {}.", name_in(weight_names, p.weight),
                        name_in(luminance_names, p.luminance), spec.gamut);
-  return out + fmt::format("\n// Rods from colour: {}, S/P ratio of the light {:.5g}.\n", name_in(rod_names, p.rods), p.sp_ratio);
+  return out + fmt::format("\n// Rods from colour: {}, S/P ratio of the light {:.5g}.\n",
+                           name_in(rod_names, p.rods), p.sp_ratio);
 }
 
 std::string display_of(const ShaderSpec& spec) {
   if (!spec.display)
-    return "// Scene light in, scene light out, in the same unit: no display stage. What views it does so as before.\n";
+    return "// Scene light in, scene light out, in the same unit: no display stage. What views it does so as "
+           "before.\n";
   return fmt::format(
-      "// Stage display behind it (visibility {}, primaries of {}): the result is light of the display, linear, 1 = its\n"
-      "// peak, in the primaries above. Encode it for the display, with no tone map or view transform of scene light.\n",
+      "// Stage display behind it (visibility {}, primaries of {}): the result is light of the display, "
+      "linear, 1 = its\n"
+      "// peak, in the primaries above. Encode it for the display, with no tone map or view transform of "
+      "scene light.\n",
       name_in(visibility_names, spec.display->rule), spec.display_name);
 }
 
@@ -52,7 +56,8 @@ std::string sliders_of(const Statements& statements) {
   for (const Slider slider : statements.used) {
     const SliderText& text = text_of(slider);
     const std::string unit = text.unit.empty() ? "" : ", " + std::string(text.unit);
-    out += fmt::format("//   {}{} ({:g} to {:g}): {}\n", text.name, unit, text.least, text.greatest, text.sentence);
+    out += fmt::format("//   {}{} ({:g} to {:g}): {}\n", text.name, unit, text.least, text.greatest,
+                       text.sentence);
   }
   return out;
 }
@@ -64,19 +69,23 @@ std::string header_of(const ShaderSpec& spec, const Statements& statements, cons
       "// What a dark-adapted eye sees of a scene. {}, made by scotopic {}: bake --shader.\n"
       "//\n"
       "// Takes and gives linear RGB of the space '{}'; to CIE XYZ, Y of white 1:\n{}{}{}{}"
-      "// Formulas, no LUT: in float arithmetic within 2e-5 of the pixel's largest component, in or out, of what the program\n"
-      "// computes in double; 5e-3 for colours of no light, whose luminance is what is left of a cancellation. The mesopic\n"
-      "// weight (CIE 191 MES2) is a polynomial of degree 7 in log luminance, 2e-8 off. The rest are closed forms.\n"
+      "// Formulas, no LUT: in float arithmetic within 2e-5 of the pixel's largest component, in or out, of "
+      "what the program\n"
+      "// computes in double; 5e-3 for colours of no light, whose luminance is what is left of a "
+      "cancellation. The mesopic\n"
+      "// weight (CIE 191 MES2) is a polynomial of degree 7 in log luminance, 2e-8 off. The rest are closed "
+      "forms.\n"
       "// Of neighbours and time it knows nothing: no acuity, glare, contrast, noise, adaptation in time.\n",
-      what, spec.version, spec.space, matrix_of(spec.parameters.xyz_from_rgb), operator_of(spec), display_of(spec),
-      sliders_of(statements));
+      what, spec.version, spec.space, matrix_of(spec.parameters.xyz_from_rgb), operator_of(spec),
+      display_of(spec), sliders_of(statements));
 }
 
 std::string text_of(const std::vector<Statement>& statements, const std::string& indent) {
   std::string out;
   std::string_view section;
   for (const Statement& s : statements) {
-    if (s.section != section && !s.section.empty()) out += fmt::format("{}// {}\n", indent, section = s.section);
+    if (s.section != section && !s.section.empty())
+      out += fmt::format("{}// {}\n", indent, section = s.section);
     out += fmt::format("{}{} {} = {};\n", indent, s.type, s.name, s.expression);
   }
   return out;

@@ -1,10 +1,11 @@
-// The comment at the head of a shader: what goes in, what comes out, what it is of, what its sliders are, how exact it is.
+// The comment at the head of a shader: what goes in, what comes out, what it is of, what its sliders are, how
+// exact it is.
 #pragma once
 
 #include <string>
 
-#include "shaders/shader.h"
 #include "shaders/print/statements.h"
+#include "shaders/shader.h"
 
 namespace scotopic::shaders {
 

@@ -22,11 +22,12 @@ std::string reshade_sliders(const Statements& s, const Record& record) {
   std::string out;
   for (const Slider slider : s.used) {
     const SliderText& text = text_of(slider);
-    out += fmt::format("uniform float {} < ui_type = \"slider\"; ui_label = \"{}{}{}\"; ui_min = {}; ui_max = {}; > = {};\n",
-                       variable_of(slider), text.label, logarithmic(slider) ? ", log10" : "",
-                       text.unit.empty() ? "" : " " + std::string(text.unit), number_in(spelling, shown(slider, text.least)),
-                       number_in(spelling, shown(slider, text.greatest)),
-                       number_in(spelling, shown(slider, record.defaults[static_cast<std::size_t>(slider)])));
+    out += fmt::format(
+        "uniform float {} < ui_type = \"slider\"; ui_label = \"{}{}{}\"; ui_min = {}; ui_max = {}; > = {};\n",
+        variable_of(slider), text.label, logarithmic(slider) ? ", log10" : "",
+        text.unit.empty() ? "" : " " + std::string(text.unit), number_in(spelling, shown(slider, text.least)),
+        number_in(spelling, shown(slider, text.greatest)),
+        number_in(spelling, shown(slider, record.defaults[static_cast<std::size_t>(slider)])));
   }
   return out;
 }
@@ -70,11 +71,14 @@ std::string hlsl_text(const ShaderSpec& spec, const Record& record) {
   std::string adaptation;
   for (const Slider slider : s.used)
     if (logarithmic(slider)) adaptation = "  float adaptation = exp(log10_adaptation * 2.3025851);\n";
-  return header_of(spec, s, "HLSL, for ReShade and Direct3D") + "\n#ifdef __RESHADE__\n" + reshade_sliders(s, record) + "#else\n" +
-         constant_buffer(s) + "#endif\n\nfloat3 scotopic(float3 rgb)\n{\n  float r = rgb.x;\n  float g = rgb.y;\n  float b = rgb.z;\n" +
-         adaptation + "  // the same for every pixel\n" + text_of(s.of_sliders, "  ") + text_of(s.of_pixel, "  ") +
-         fmt::format("  return float3({}, {}, {});\n}}\n\n", s.out[0], s.out[1], s.out[2]) + "#ifdef __RESHADE__\n" +
-         reshade_technique + "#else\n" + main_function + "#endif\n";
+  return header_of(spec, s, "HLSL, for ReShade and Direct3D") + "\n#ifdef __RESHADE__\n" +
+         reshade_sliders(s, record) + "#else\n" + constant_buffer(s) +
+         "#endif\n\nfloat3 scotopic(float3 rgb)\n{\n  float r = rgb.x;\n  float g = rgb.y;\n  float b = "
+         "rgb.z;\n" +
+         adaptation + "  // the same for every pixel\n" + text_of(s.of_sliders, "  ") +
+         text_of(s.of_pixel, "  ") +
+         fmt::format("  return float3({}, {}, {});\n}}\n\n", s.out[0], s.out[1], s.out[2]) +
+         "#ifdef __RESHADE__\n" + reshade_technique + "#else\n" + main_function + "#endif\n";
 }
 
 }  // namespace scotopic::shaders

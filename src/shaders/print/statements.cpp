@@ -22,24 +22,39 @@ struct Operator {
 
 Operator operator_of(Op op) {
   switch (op) {
-    case Op::add: return {" + ", sum};
-    case Op::subtract: return {" - ", sum};
-    case Op::multiply: return {" * ", product};
-    case Op::divide: return {" / ", product};
-    case Op::less: return {" < ", order};
-    case Op::less_equal: return {" <= ", order};
-    case Op::greater: return {" > ", order};
-    case Op::not_equal: return {" != ", equality};
-    case Op::both: return {" && ", conjunction};
-    case Op::either: return {" || ", disjunction};
-    default: return {"", primary};
+    case Op::add:
+      return {" + ", sum};
+    case Op::subtract:
+      return {" - ", sum};
+    case Op::multiply:
+      return {" * ", product};
+    case Op::divide:
+      return {" / ", product};
+    case Op::less:
+      return {" < ", order};
+    case Op::less_equal:
+      return {" <= ", order};
+    case Op::greater:
+      return {" > ", order};
+    case Op::not_equal:
+      return {" != ", equality};
+    case Op::both:
+      return {" && ", conjunction};
+    case Op::either:
+      return {" || ", disjunction};
+    default:
+      return {"", primary};
   }
 }
 
 class Writer {
  public:
   Writer(const Record& record, const Spelling& spelling)
-      : record_(record), nodes_(record.graph.nodes()), spelling_(spelling), uses_(nodes_.size()), text_(nodes_.size()) {}
+      : record_(record),
+        nodes_(record.graph.nodes()),
+        spelling_(spelling),
+        uses_(nodes_.size()),
+        text_(nodes_.size()) {}
 
   Statements operator()() {
     count_uses();
@@ -58,7 +73,8 @@ class Writer {
 
   const Text& of(int node) const { return text_[static_cast<std::size_t>(node)]; }
 
-  // From the results down: what nothing uses is left out. Sliders' values that pixels use are used "twice": by all.
+  // From the results down: what nothing uses is left out. Sliders' values that pixels use are used "twice":
+  // by all.
   void count_uses() {
     for (const int node : record_.out) uses_[static_cast<std::size_t>(node)] += 2;
     for (std::size_t i = nodes_.size(); i-- > 0;) {
@@ -88,21 +104,36 @@ class Writer {
 
   Text expression(const Node& node) const {
     switch (node.op) {
-      case Op::literal: return {number_in(spelling_, node.number), node.number < 0 ? unary : primary};
-      case Op::truth: return {node.number != 0 ? "1 > 0" : "0 > 1", order};
-      case Op::input: return {std::string(1, "rgb"[node.index])};
-      case Op::parameter: return {std::string(text_of(static_cast<Slider>(node.index)).name)};
-      case Op::min: return call(spelling_.min, node);
-      case Op::max: return call(spelling_.max, node);
-      case Op::abs: return call(spelling_.abs, node);
-      case Op::sqrt: return call(spelling_.sqrt, node);
-      case Op::exp: return call(spelling_.exp, node);
-      case Op::log: return call(spelling_.log, node);
-      case Op::pow: return call(spelling_.pow, node);
+      case Op::literal:
+        return {number_in(spelling_, node.number), node.number < 0 ? unary : primary};
+      case Op::truth:
+        return {node.number != 0 ? "1 > 0" : "0 > 1", order};
+      case Op::input:
+        return {std::string(1, "rgb"[node.index])};
+      case Op::parameter:
+        return {std::string(text_of(static_cast<Slider>(node.index)).name)};
+      case Op::min:
+        return call(spelling_.min, node);
+      case Op::max:
+        return call(spelling_.max, node);
+      case Op::abs:
+        return call(spelling_.abs, node);
+      case Op::sqrt:
+        return call(spelling_.sqrt, node);
+      case Op::exp:
+        return call(spelling_.exp, node);
+      case Op::log:
+        return call(spelling_.log, node);
+      case Op::pow:
+        return call(spelling_.pow, node);
       case Op::select:
-        return {in(node, 0, disjunction) + " ? " + in(node, 1, disjunction) + " : " + in(node, 2, disjunction), choice};
-      case Op::without: return {in(node, 1, equality) + " && !" + in(node, 0, primary), conjunction};
-      default: return binary(operator_of(node.op), node);
+        return {
+            in(node, 0, disjunction) + " ? " + in(node, 1, disjunction) + " : " + in(node, 2, disjunction),
+            choice};
+      case Op::without:
+        return {in(node, 1, equality) + " && !" + in(node, 0, primary), conjunction};
+      default:
+        return binary(operator_of(node.op), node);
     }
   }
 
@@ -147,6 +178,8 @@ std::string number_in(const Spelling& spelling, double number) {
   return text + std::string(spelling.suffix);
 }
 
-Statements statements_of(const Record& record, const Spelling& spelling) { return Writer(record, spelling)(); }
+Statements statements_of(const Record& record, const Spelling& spelling) {
+  return Writer(record, spelling)();
+}
 
 }  // namespace scotopic::shaders

@@ -1,4 +1,5 @@
-// A record as statements of a C-like language: what is used twice gets a name, the rest stays inside expressions.
+// A record as statements of a C-like language: what is used twice gets a name, the rest stays inside
+// expressions.
 #pragma once
 
 #include <array>
@@ -12,8 +13,8 @@ namespace scotopic::shaders {
 
 /// How a language spells what the graph holds.
 struct Spelling {
-  std::string_view suffix;   ///< of numbers
-  std::string_view truth;    ///< the type of a yes or no
+  std::string_view suffix;  ///< of numbers
+  std::string_view truth;   ///< the type of a yes or no
   std::string_view min, max, abs, sqrt, exp, log, pow;
 };
 
@@ -25,7 +26,8 @@ struct Statement {
   std::string_view section;  ///< the stage it is of
 };
 
-/// In order; `of_sliders` are the same for all pixels, named c1, c2, ...; `of_pixel`, t1, t2, ..., follow them.
+/// In order; `of_sliders` are the same for all pixels, named c1, c2, ...; `of_pixel`, t1, t2, ..., follow
+/// them.
 struct Statements {
   std::vector<Statement> of_sliders, of_pixel;
   std::array<std::string, 3> out;  ///< R, G, B

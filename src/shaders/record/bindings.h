@@ -1,4 +1,5 @@
-// Which of the stages' constants hang on sliders, and which stage each is of: by where they lie, as the batch finds them.
+// Which of the stages' constants hang on sliders, and which stage each is of: by where they lie, as the batch
+// finds them.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// Arithmetic as a graph: what formulas leave behind that are run on Recorded numbers (recorded.h) instead of on pixels.
+// Arithmetic as a graph: what formulas leave behind that are run on Recorded numbers (recorded.h) instead of
+// on pixels.
 #pragma once
 
 #include <array>
@@ -16,17 +17,29 @@ enum class Op : std::uint8_t {
   truth,      ///< yes or no: literal 1 or 0
   input,      ///< R, G or B of the pixel
   parameter,  ///< a slider
-  add, subtract, multiply, divide,
-  min, max, abs, sqrt, exp, log, pow,
-  less, less_equal, greater, not_equal,
-  both, either, without,  ///< and, or, b and not a
-  select                  ///< a ? b : c
+  add,
+  subtract,
+  multiply,
+  divide,
+  min,
+  max,
+  abs,
+  sqrt,
+  exp,
+  log,
+  pow,
+  less,
+  less_equal,
+  greater,
+  not_equal,
+  both,
+  either,
+  without,  ///< and, or, b and not a
+  select    ///< a ? b : c
 };
 
 /// Whether it gives yes or no.
-constexpr bool is_truth(Op op) noexcept {
-  return op == Op::truth || (op >= Op::less && op <= Op::without);
-}
+constexpr bool is_truth(Op op) noexcept { return op == Op::truth || (op >= Op::less && op <= Op::without); }
 
 /// One operation; `from` are earlier nodes, -1 where there are fewer.
 struct Node {

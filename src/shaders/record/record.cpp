@@ -66,7 +66,8 @@ Colour stages_of(Graph& graph, const ShaderSpec& spec, const Sliders& slider, co
   return select(n, seen.active, seen.rgb, rgb);
 }
 
-Bindings bindings_of(const DisplayConstants<float>& k, const NightDisplayParameters& p, const Sliders& slider) {
+Bindings bindings_of(const DisplayConstants<float>& k, const NightDisplayParameters& p,
+                     const Sliders& slider) {
   const Recorded scale = display_scale(
       DisplayLight<Recorded>{slider(Slider::adaptation), slider.white(), slider(Slider::viewing),
                              slider(Slider::peak), slider(Slider::strength_display)},
@@ -94,10 +95,14 @@ Colour displayed(Graph& graph, const NightDisplayParameters& p, const Sliders& s
 SliderValues defaults_of(const ShaderSpec& spec) {
   const AppearanceParameters& p = spec.parameters;
   const NightDisplayParameters d = spec.display.value_or(NightDisplayParameters{});
-  return {p.adaptation,        spec.white_from_adaptation ? 0.0 : p.white_luminance,
-          p.strength.all,      p.strength.shift,
-          p.strength.luminance, p.strength.chroma,
-          d.strength,          d.viewing,
+  return {p.adaptation,
+          spec.white_from_adaptation ? 0.0 : p.white_luminance,
+          p.strength.all,
+          p.strength.shift,
+          p.strength.luminance,
+          p.strength.chroma,
+          d.strength,
+          d.viewing,
           d.peak};
 }
 

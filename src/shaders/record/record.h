@@ -16,7 +16,8 @@ struct Record {
   SliderValues defaults{};
 };
 
-/// Runs the formulas of pixel_stages-inl.h, and of the display stage where the spec has one, on Recorded numbers.
+/// Runs the formulas of pixel_stages-inl.h, and of the display stage where the spec has one, on Recorded
+/// numbers.
 Record record_of(const ShaderSpec& spec);
 
 }  // namespace scotopic::shaders

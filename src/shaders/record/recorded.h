@@ -1,4 +1,5 @@
-// Numbers that remember how they came about. One that no pixel and no slider is part of stays a plain number, in double.
+// Numbers that remember how they came about. One that no pixel and no slider is part of stays a plain number,
+// in double.
 #pragma once
 
 #include "shaders/record/graph.h"

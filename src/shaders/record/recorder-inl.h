@@ -1,4 +1,5 @@
-// The number type whose arithmetic is written down instead of done (stages/shared/numbers-inl.h says what one is).
+// The number type whose arithmetic is written down instead of done (stages/shared/numbers-inl.h says what one
+// is).
 #if defined(SCOTOPIC_SHADERS_RECORD_RECORDER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SCOTOPIC_SHADERS_RECORD_RECORDER_INL_H_
 #undef SCOTOPIC_SHADERS_RECORD_RECORDER_INL_H_

@@ -32,11 +32,11 @@ struct ImageComputationKernel {
 #define param public
 #define local public
 #define SampleType(image) float4
-#define defineParam(name, label, value)                                          \
-  do {                                                                           \
-    static_assert(sizeof(label) > 1, "a label");                                 \
-    name = value;                                                                \
-    this->parameters[#name] = &name;                                             \
+#define defineParam(name, label, value)          \
+  do {                                           \
+    static_assert(sizeof(label) > 1, "a label"); \
+    name = value;                                \
+    this->parameters[#name] = &name;             \
   } while (false)
 
 // Blink's own functions; those of the C library are of double.

@@ -14,7 +14,8 @@ inline float3 make_float3(float x, float y, float z) { return {x, y, z}; }
   float name = type(value, least, greatest, step);                        \
   }
 constexpr float DCTLUI_SLIDER_FLOAT(double value, double least, double greatest, double step) {
-  return least <= value && value <= greatest && step > 0 ? static_cast<float>(value) : throw "a slider out of its range";
+  return least <= value && value <= greatest && step > 0 ? static_cast<float>(value)
+                                                         : throw "a slider out of its range";
 }
 
 inline float _fminf(float a, float b) { return std::fmin(a, b); }

@@ -1,8 +1,8 @@
 // Compiled together with SHADER, a Blink kernel, into a library: run() is what the host does for each pixel.
+#include <cstddef>
+
 #include "blink.h"
 #include SHADER
-
-#include <cstddef>
 
 namespace {
 Scotopic& the_kernel() {

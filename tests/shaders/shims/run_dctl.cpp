@@ -1,8 +1,8 @@
 // Compiled together with SHADER, a DCTL, into a library: run() is what the host does for each pixel.
+#include <cstddef>
+
 #include "dctl.h"
 #include SHADER
-
-#include <cstddef>
 
 extern "C" void run(const float* in, float* out, std::size_t count) {
   for (std::size_t i = 0; i < 3 * count; i += 3) {

@@ -1,8 +1,9 @@
-// Compiled together with SHADER, the text of an OSL shader that osl_host() has made C++ of: its parameters are variables.
+// Compiled together with SHADER, the text of an OSL shader that osl_host() has made C++ of: its parameters
+// are variables.
+#include <cstddef>
+
 #include "osl.h"
 #include SHADER
-
-#include <cstddef>
 
 extern "C" void run(const float* in, float* out, std::size_t count) {
   for (std::size_t i = 0; i < 3 * count; i += 3) {
