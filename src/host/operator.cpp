@@ -1,5 +1,6 @@
 #include "host/operator.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "cli/bake/bake_options.h"
@@ -18,6 +19,40 @@ ImageSettings measuring(const ImageSettings& settings) {
   out.point_stages.clear();
   add_stages(out);
   return out;
+}
+
+/// What stages would be told before a pixel is read, La as given or 1.
+StageScene scene_without_pixels(const ImageSettings& s, const MemoryJob& job) {
+  StageScene out;
+  const double adaptation = job.adaptation ? job.adaptation->luminance : s.choice.adaptation.value_or(1);
+  out.parameters = parameters_of(s.choice, adaptation);
+  out.resolution = resolution_in_memory(s, job);
+  out.sequence = job.frame.has_value();
+  out.tracked = job.adaptation.has_value();
+  return out;
+}
+
+template <class Stages>
+bool any_asked(const Stages& stages, const StageScene& scene) {
+  return std::any_of(stages.begin(), stages.end(),
+                     [&](const auto& stage) { return stage->decide(scene).asked; });
+}
+
+template <class Stages>
+bool any_runs(const Stages& stages, const StageScene& scene) {
+  return std::any_of(stages.begin(), stages.end(),
+                     [&](const auto& stage) { return stage->decide(scene).runs(); });
+}
+
+bool is_metered(const ImageSettings& s, const MemoryJob& job) {
+  return !job.adaptation && !s.choice.adaptation;
+}
+
+/// Nothing after the stages, nor the way there, changes a value.
+bool values_stay(const ImageSettings& s) {
+  const ImageRequest& r = s.request;
+  return !s.display.tone && r.night != NightDisplayMode::always && !r.view && !r.output_colourspace &&
+         r.exposure == 0 && s.non_finite == NonFinite::keep;
 }
 
 }  // namespace
@@ -40,6 +75,22 @@ nlohmann::ordered_json HostOperator::explain(const MemoryJob& job, const Notes& 
 
 SceneReport HostOperator::plan(const MemoryJob& job, const Notes& notes) const {
   return read_scene(job, settings_, Statistics::where_needed, notes);
+}
+
+bool HostOperator::changes_nothing(const MemoryJob& job) const {
+  if (!values_stay(settings_) || is_metered(settings_, job) || !settings_.time.history.empty()) return false;
+  if (job.adaptation && job.adaptation->state) return false;
+  const StageScene scene = scene_without_pixels(settings_, job);
+  if (any_asked(settings_.frame_stages, scene)) return false;
+  const SceneNumbers numbers = {scene.parameters.adaptation, scene.parameters.white_luminance, "", ""};
+  return plan_for(settings_, numbers, scene.resolution, nullptr).nothing() &&
+         !any_runs(settings_.point_stages, scene);
+}
+
+bool HostOperator::looks_around(const MemoryJob& job) const {
+  if (is_metered(settings_, job) || settings_.display.tone) return true;
+  const StageScene scene = scene_without_pixels(settings_, job);
+  return any_asked(settings_.frame_stages, scene) || any_runs(settings_.filter_stages, scene);
 }
 
 nlohmann::ordered_json HostOperator::bake(const std::string& path, const std::string& size,

@@ -7,6 +7,7 @@
 
 #include "host/parameters.h"
 #include "pipeline/memory/run_memory.h"
+#include "pipeline/scene/angular_resolution.h"
 
 namespace scotopic {
 
@@ -22,6 +23,10 @@ class HostOperator {
   nlohmann::ordered_json explain(const MemoryJob& job, const Notes& notes) const;
   /// What would run on the image, and why, without running it.
   SceneReport plan(const MemoryJob& job, const Notes& notes) const;
+  /// Whether such an image comes out as it is, as far as that is known without a look at its pixels.
+  bool changes_nothing(const MemoryJob& job) const;
+  /// Whether a pixel of the result depends on others than itself.
+  bool looks_around(const MemoryJob& job) const;
   /// The pixel stages as a LUT file, as `scotopic bake` writes it: `size` nodes a side, `max_error` may be
   /// empty. Returns what bake --json says. Needs an adaptation.
   nlohmann::ordered_json bake(const std::string& path, const std::string& size, const std::string& max_error,

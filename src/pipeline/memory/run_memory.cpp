@@ -82,6 +82,11 @@ ImageReport run_image(const MemoryJob& job, const ImageSettings& settings, Evalu
   return run_image(named(job), ends, settings_for(job, settings), evaluators, notes);
 }
 
+AngularResolution resolution_in_memory(const ImageSettings& settings, const MemoryJob& job) {
+  const OpenImage image = open_memory(job, settings, {}, true);
+  return angular_resolution(settings.viewing, *image.source, image.layout);
+}
+
 SceneReport read_scene(const MemoryJob& job, const ImageSettings& settings, Statistics wanted,
                        const Notes& notes) {
   OpenImage image = open_memory(job, settings, notes, false);

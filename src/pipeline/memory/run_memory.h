@@ -26,6 +26,9 @@ struct MemoryJob {
 ImageReport run_image(const MemoryJob& job, const ImageSettings& settings, EvaluatorSource& evaluators,
                       const Notes& notes);
 
+/// Pixels per degree of such an image; only its header is looked at.
+AngularResolution resolution_in_memory(const ImageSettings& settings, const MemoryJob& job);
+
 /// As read_scene(): `out` and `window` are not looked at.
 SceneReport read_scene(const MemoryJob& job, const ImageSettings& settings, Statistics wanted,
                        const Notes& notes);
