@@ -50,4 +50,14 @@ if(TARGET scotopic_python)
 "Module for Python: the operator on numpy arrays, byte for byte the program's results;
 receptors, mesopic photometry, thresholds and adaptation in time.")
 endif()
+if(TARGET scotopic_ofx)
+  list(APPEND CPACK_COMPONENTS_ALL ofx)
+  set(CPACK_DEBIAN_OFX_PACKAGE_NAME scotopic-ofx)
+  set(CPACK_DEBIAN_OFX_PACKAGE_SECTION graphics)
+  set(CPACK_DEBIAN_OFX_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_OFX_PACKAGE_SUGGESTS scotopic)
+  set(CPACK_COMPONENT_OFX_DESCRIPTION
+"Plug-in for OpenFX hosts (Nuke, Resolve, Natron): the operator with detail, glare, noise
+and adaptation in time, byte for byte the program's results.")
+endif()
 include(CPack)
