@@ -15,6 +15,7 @@ ImageSettings measuring(const ImageSettings& settings) {
   ImageSettings out = settings;
   out.measure = true;
   out.frame_stages.clear();
+  out.light_stages.clear();
   out.filter_stages.clear();
   out.point_stages.clear();
   add_stages(out);
@@ -84,7 +85,7 @@ bool HostOperator::changes_nothing(const MemoryJob& job) const {
   if (any_asked(settings_.frame_stages, scene)) return false;
   const SceneNumbers numbers = {scene.parameters.adaptation, scene.parameters.white_luminance, "", ""};
   return plan_for(settings_, numbers, scene.resolution, nullptr).nothing() &&
-         !any_runs(settings_.point_stages, scene);
+         !any_runs(settings_.light_stages, scene) && !any_runs(settings_.point_stages, scene);
 }
 
 bool HostOperator::looks_around(const MemoryJob& job) const {
