@@ -31,7 +31,7 @@ STAGES = {
     "loss of contrast": dict(adaptation=0.01, effects="detail", ppd=20),
     "noise": dict(adaptation=0.0005, effects="noise", ppd=30, seed=7),
     "an eye from daylight": dict(adaptation=0.01, adaptation_history="1000:600,0.01:20"),
-    "a lamp adapted to": dict(adaptation=0.1, adapt_white="hps"),
+    "a lamp adapted to": dict(adaptation=0.1, illuminant="hps", adapt_white="lamp"),
     "glare": dict(adaptation=0.05, effects="glare", ppd=10),
     "all the retina's light": dict(adaptation=0.05, glare="all", ppd=10, age=70),
     "everything": dict(adaptation=0.02, effects="all", fov=12),
