@@ -5,10 +5,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 #include <string>
 
 namespace {
@@ -29,26 +27,8 @@ Outcome run(const std::string& arguments) {
   return {WEXITSTATUS(pclose(pipe)), out};
 }
 
-std::string content(const fs::path& path) {
-  std::stringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
-
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "scotopic-XXXXXX").string();
-    path = mkdtemp(name.data());
-  }
-  ~Folder() { fs::remove_all(path); }
-  fs::path path;
-};
-
 TEST(TimeVerb, every_way_has_its_row_with_time_and_error) {
-  const Folder folder;
-  const fs::path plot = folder.path / "cost.svg";
-  const Outcome outcome = run("time --pixels 65536 --rounds 1 --json --plot " + plot.string());
+  const Outcome outcome = run("time --pixels 65536 --rounds 1 --json");
   ASSERT_EQ(outcome.code, 0);
   const auto result = nlohmann::json::parse(outcome.out);
   std::set<std::string> names;
@@ -72,10 +52,6 @@ TEST(TimeVerb, every_way_has_its_row_with_time_and_error) {
                            "cells, fine", "cells, draft"})
     EXPECT_TRUE(names.contains(name)) << name;
   EXPECT_GE(result["pixels"], 65536);
-  const std::string svg = content(plot);
-  EXPECT_EQ(svg.rfind("<svg", 0), 0u);
-  EXPECT_NE(svg.find("lut33</text>"), std::string::npos);
-  EXPECT_NE(svg.find("</svg>"), std::string::npos);
 }
 
 TEST(TimeVerb, csv_has_as_many_fields_in_every_row) {
