@@ -87,6 +87,18 @@ TEST(ShaderText, is_ascii_and_the_same_in_every_locale) {
   }
 }
 
+TEST(ShaderText, a_name_from_a_config_stays_in_its_comment) {
+  ShaderSpec spec = usual();
+  spec.space = "R\xc3\xa4umlich\nerror \\";
+  spec.display.emplace().xyz_from_display = spec.parameters.xyz_from_rgb;
+  spec.display_name = "a\rb\n#error";
+  for (const ShaderLanguageName& language : shader_languages) {
+    const std::string text = shader_text(spec, language.language);
+    EXPECT_TRUE(has(text, "'R??umlich?error ?'")) << language.name;
+    EXPECT_TRUE(has(text, "a?b?#error")) << language.name;
+  }
+}
+
 TEST(ShaderText, of_nothing_hands_the_pixel_on) {
   ShaderSpec spec = usual();
   spec.parameters.strength = {1, 0, 0, 0};

@@ -2,10 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "pipeline/scene/parameter_names.h"
 
 namespace scotopic::shaders {
 namespace {
+
+/// A name from a config, for a comment: it may hold a line's end, or letters that hosts' compilers do not read.
+std::string plain(std::string name) {
+  std::replace_if(name.begin(), name.end(), [](char c) { return c < ' ' || c > '~' || c == '\\'; }, '?');
+  return name;
+}
 
 std::string stages_of(const ShaderSpec& spec) {
   const AppearanceParameters& p = spec.parameters;
@@ -48,7 +56,7 @@ std::string display_of(const ShaderSpec& spec) {
       "linear, 1 = its\n"
       "// peak, in the primaries above. Encode it for the display, with no tone map or view transform of "
       "scene light.\n",
-      name_in(visibility_names, spec.display->rule), spec.display_name);
+      name_in(visibility_names, spec.display->rule), plain(spec.display_name));
 }
 
 std::string sliders_of(const Statements& statements) {
@@ -76,7 +84,7 @@ std::string header_of(const ShaderSpec& spec, const Statements& statements, cons
       "// weight (CIE 191 MES2) is a polynomial of degree 7 in log luminance, 2e-8 off. The rest are closed "
       "forms.\n"
       "// Of neighbours and time it knows nothing: no acuity, glare, contrast, noise, adaptation in time.\n",
-      what, spec.version, spec.space, matrix_of(spec.parameters.xyz_from_rgb), operator_of(spec),
+      what, spec.version, plain(spec.space), matrix_of(spec.parameters.xyz_from_rgb), operator_of(spec),
       display_of(spec), sliders_of(statements));
 }
 
