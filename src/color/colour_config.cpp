@@ -1,11 +1,8 @@
 #include "color/colour_config.h"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <cstdlib>
 #include <mutex>
 #include <new>
@@ -19,7 +16,6 @@
 #include "base/names.h"
 
 namespace OCIO = OCIO_NAMESPACE;
-namespace fs = std::filesystem;
 
 namespace scotopic {
 namespace {
@@ -72,52 +68,6 @@ bool near(const Vec3<double>& a, const Vec3<double>& b, double scale) {
 
 }  // namespace
 
-RowConverter::RowConverter(const Matrix3<double>& matrix) : matrix_(matrix) {}
-
-RowConverter::RowConverter(OCIO::ConstCPUProcessorRcPtr processor)
-    : processor_(processor && !processor->isNoOp() ? std::move(processor) : nullptr) {}
-
-RowConverter::RowConverter(const TransferCurve& curve, const Matrix3<double>& matrix, bool decode)
-    : matrix_(matrix), curve_(curve), decode_(decode) {}
-
-RowConverter::RowConverter(std::shared_ptr<const EmbeddedProfile> embedded, const Matrix3<double>& matrix, bool decode)
-    : matrix_(matrix), decode_(decode), embedded_(std::move(embedded)) {}
-
-RowConverter::RowConverter(std::shared_ptr<const IccProfile> profile, const Matrix3<double>& xyz_from_rgb)
-    : matrix_(xyz_from_rgb), profile_(std::move(profile)) {}
-
-void RowConverter::apply(float* r, float* g, float* b, std::size_t count) const {
-  if (profile_) {
-    profile_->apply(*matrix_, r, g, b, count);
-  } else if (embedded_) {
-    apply_embedded(r, g, b, count);
-  } else if (matrix_) {
-    apply_matrix(r, g, b, count);
-  } else if (processor_ && count > 0) {
-    OCIO::PlanarImageDesc row(r, g, b, nullptr, static_cast<long>(count), 1);
-    processor_->apply(row);
-  }
-}
-
-void RowConverter::apply_matrix(float* r, float* g, float* b, std::size_t count) const {
-  const bool curved = !curve_.linear();
-  for (std::size_t i = 0; i < count; ++i) {
-    Vec3<double> p{r[i], g[i], b[i]};
-    if (curved && decode_) p = curve_.decode(p);
-    p = *matrix_ * p;
-    if (curved && !decode_) p = curve_.encode(p);
-    r[i] = static_cast<float>(p[0]);
-    g[i] = static_cast<float>(p[1]);
-    b[i] = static_cast<float>(p[2]);
-  }
-}
-
-void RowConverter::apply_embedded(float* r, float* g, float* b, std::size_t count) const {
-  if (decode_) embedded_->to_xyz(r, g, b, count);
-  apply_matrix(r, g, b, count);
-  if (!decode_) embedded_->from_xyz(r, g, b, count);
-}
-
 ColourConfig::ColourConfig(OCIO::ConstConfigRcPtr config, std::string file, const Limits& limits,
                            const std::optional<Matrix3<double>>& working)
     : config_(std::move(config)), file_(std::move(file)), limits_(limits) {
@@ -165,46 +115,6 @@ ColourConfig ColourConfig::in_force(const std::string& file, const Limits& limit
   ColourConfig config = source.empty() ? own() : from_file(source, limits, working);
   if (source.empty() && working) config.find_xyz(working);
   return config;
-}
-
-namespace {
-
-/// Of the program, and of the module that holds this code where a host has loaded one.
-std::vector<fs::path> own_folders() {
-  static const char here = 0;
-  std::error_code none;
-  std::vector<fs::path> out = {fs::read_symlink("/proc/self/exe", none).parent_path()};
-  Dl_info module = {};
-  if (dladdr(&here, &module) != 0 && module.dli_fname)
-    out.push_back(fs::absolute(module.dli_fname, none).parent_path());
-  return out;
-}
-
-/// Beside an installed program or module, where packages put it, beside a build folder; empty: nowhere.
-std::string shipped_config() {
-  constexpr const char* below = "scotopic/ocio_config/config.ocio";
-  std::vector<fs::path> files;
-  for (const fs::path& folder : own_folders()) {
-    files.push_back(folder / "../share" / below);
-    files.push_back(folder / "../../../../share" / below);
-    files.push_back(folder / "../../../../ocio_config/config.ocio");
-  }
-  files.insert(files.begin() + 1, SCOTOPIC_SHARE_FOLDER "/ocio_config/config.ocio");
-  std::error_code none;
-  for (const fs::path& file : files)
-    if (fs::is_regular_file(file, none)) return file.lexically_normal().string();
-  return "";
-}
-
-}  // namespace
-
-ColourConfig ColourConfig::holding(const std::string& view) const {
-  if (!file_.empty()) return *this;
-  for (const std::string& display : displays())
-    for (const std::string& known : views(display))
-      if (view == known || view == display + "/" + known) return *this;
-  const std::string shipped = shipped_config();
-  return shipped.empty() ? *this : from_file(shipped, limits_);
 }
 
 void ColourConfig::fail(const std::string& what) const { throw Error(ExitCode::config, file_, what); }
@@ -310,39 +220,6 @@ RuledSpace ColourConfig::space_by_rules(const std::string& file, bool integer) c
   return {space(OCIO::ROLE_SCENE_LINEAR), "the config's role scene_linear"};
 }
 
-std::vector<std::string> ColourConfig::displays() const {
-  std::vector<std::string> out;
-  for (int i = 0; i < config_->getNumDisplays(); ++i) out.emplace_back(config_->getDisplay(i));
-  return out;
-}
-
-std::vector<std::string> ColourConfig::views(const std::string& display) const {
-  std::vector<std::string> out;
-  for (int i = 0; i < config_->getNumViews(display.c_str()); ++i)
-    out.emplace_back(config_->getView(display.c_str(), i));
-  return out;
-}
-
-ColourSpace ColourConfig::view(const std::string& name) const {
-  const std::string usual = config_->getDefaultDisplay();
-  std::vector<std::string> known;
-  for (const std::string& view : views(usual)) {
-    if (view == name) return {name, std::nullopt, DisplayView{usual, view}};
-    known.push_back(view);
-  }
-  for (const std::string& display : displays())
-    for (const std::string& view : views(display)) {
-      known.push_back(display + "/" + view);
-      if (known.back() == name) return {name, std::nullopt, DisplayView{display, view}};
-    }
-  fail("unknown view '" + name + "'" + did_you_mean(name, known));
-}
-
-std::string ColourConfig::looks_of(const DisplayView& view) const {
-  const char* const looks = config_->getDisplayViewLooks(view.display.c_str(), view.view.c_str());
-  return looks ? looks : "";
-}
-
 OCIO::ConstCPUProcessorRcPtr ColourConfig::processor(const DisplayView& to) const {
   const OCIO::DisplayViewTransformRcPtr both = OCIO::DisplayViewTransform::Create();
   both->setSrc(working_space_.c_str());
@@ -385,13 +262,6 @@ bool ColourConfig::is_srgb(const ColourSpace& space) const {
   for (std::size_t i = 0; i < 3; ++i)
     if (!(std::abs(static_cast<double>(p[i]) - encoded[i]) <= 1e-4)) return false;
   return true;
-}
-
-ColourSpace ColourConfig::display_space(const std::string& name) const {
-  if (has_space(name)) return space(name);
-  std::vector<std::string> known = names();
-  for (const std::string& display : displays()) known.push_back(display);
-  fail("no display or colour space is called '" + name + "'" + did_you_mean(name, known));
 }
 
 std::optional<ColourConfig::Encoding> ColourConfig::encoding(const ColourSpace& space) const {
