@@ -16,7 +16,6 @@
 #include "pipeline/rows/stages.h"
 #include "pipeline/stages/stage_values.h"
 #include "stages/display/local/display.h"
-#include "stages/display/night_display.h"
 #include "stages/shared/parameters.h"
 
 namespace scotopic {
@@ -62,10 +61,9 @@ struct TimeChoice {
   std::vector<AdaptationPeriod> history;  ///< before frame 0; empty: ever in the scene's own light
 };
 
-/// What a display is sent. The scene's numbers in both sets of parameters are not set yet.
+/// What a display is sent by the tone map; the display stage is one of the table. The scene's numbers are not set yet.
 struct DisplayChoice {
   bool tone = false;                  ///< the local tone map runs
-  NightDisplayParameters night;       ///< of the display stage
   DisplayParameters parameters;       ///< of the tone map
   std::optional<DisplayRange> range;  ///< nullopt: measured
   std::string of_night;               ///< an option given that only the display stage knows; empty: none

@@ -12,7 +12,6 @@
 #include "color/colour_config.h"
 #include "pipeline/rows/threads.h"
 #include "pipeline/run.h"
-#include "pipeline/stages/display_stages.h"
 #include "support/exr_files.h"
 
 namespace scotopic {
@@ -44,7 +43,6 @@ ImageSettings settings(double adaptation, const std::string& effects) {
 }
 
 ImageReport run(const std::string& in, const std::string& out, ImageSettings s, int frame = 0) {
-  s.display.night = night_parameters(s.choice.stages);
   add_stages(s);
   ImageJob job;
   job.input = in;

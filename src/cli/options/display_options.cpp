@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "cli/options/values.h"
-#include "pipeline/stages/display_stages.h"
 
 namespace scotopic {
 namespace {
@@ -97,10 +96,9 @@ DisplayChoice understand(const DisplayOptions& o, const StageValues& stages, Ima
   if (out.tone && request.night == NightDisplayMode::always)
     throw Error(ExitCode::usage, "", "either --display night or --tone local, not both");
   if (out.tone) request.night = NightDisplayMode::never;
-  out.night = night_parameters(stages);
   DisplayParameters& p = out.parameters;
   p.contrast = number_in("--contrast", o.contrast, 1, 1e6, "a ratio of luminances, 1 to 1e6");
-  p.peak = out.night.peak;
+  p.peak = stages.number("peak");
   p.night_range = number_in("--night-range", o.night_range, 0, 1, "a share from 0 to 1");
   p.night_exponent = number_in("--night-exponent", o.night_exponent, 0.01, 100, "a power, 0.01 to 100");
   if (o.range != "auto") out.range = parse_range(o.range);

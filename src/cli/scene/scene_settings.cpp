@@ -4,7 +4,6 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "pipeline/stages/display_stages.h"
 
 namespace scotopic {
 namespace {
@@ -52,7 +51,6 @@ ImageSettings understand(const SceneOptions& o) {
   out.choice = std::move(choice);
   out.viewing = viewing;
   out.time = std::move(time);
-  out.display.night = night_parameters(out.choice.stages);
   out.request = std::move(request);
   out.limits = o.image.limits;
   out.spectral = std::move(spectral);

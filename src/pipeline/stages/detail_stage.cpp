@@ -1,6 +1,7 @@
 // Stage detail: which of its filters, and what of the scene each is told.
 #include <fmt/format.h>
 
+#include "pipeline/stages/display_stages.h"
 #include "pipeline/stages/stages.h"
 #include "stages/acuity/cutoff.h"
 #include "stages/acuity/filter.h"
@@ -13,8 +14,8 @@ namespace {
 
 class DetailStage : public FilterStage {
  public:
-  DetailStage(const StageValues& values, const NightDisplayParameters& shown)
-      : values_(values), shown_(shown), filter_(values.word<DetailFilter>("detail")) {}
+  explicit DetailStage(const StageValues& values)
+      : values_(values), shown_(night_parameters(values)), filter_(values.word<DetailFilter>("detail")) {}
 
   std::string_view name() const noexcept override { return detail_description.name; }
   EffectDecision decide(const StageScene& scene) const override;
@@ -126,7 +127,7 @@ std::vector<Attribute> DetailStage::stamps(const StageScene& scene) const {
 }  // namespace
 
 void add_detail(const StageValues& values, ImageSettings& settings) {
-  settings.filter_stages.push_back(std::make_shared<const DetailStage>(values, settings.display.night));
+  settings.filter_stages.push_back(std::make_shared<const DetailStage>(values));
 }
 
 }  // namespace scotopic

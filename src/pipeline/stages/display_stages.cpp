@@ -95,11 +95,11 @@ ToneStage tone_stage(const DisplayChoice& choice, const AppearanceParameters& sc
   return out;
 }
 
-NightStage night_stage(const DisplayChoice& choice, const AppearanceParameters& scene, Precision precision,
+NightStage night_stage(const StageValues& values, const AppearanceParameters& scene, Precision precision,
                        const std::string& file, ImageLayout& layout, const Notes& notes) {
   NightStage out;
   if (!layout.night) return out;
-  NightDisplayParameters p = choice.night;
+  NightDisplayParameters p = night_parameters(values);
   p.adaptation = scene.adaptation;
   p.white_luminance = scene.white_luminance * std::exp2(layout.exposure);
   p.xyz_from_rgb = scene.xyz_from_rgb;

@@ -53,7 +53,7 @@ struct NightStage {
 };
 
 /// For a layout that asks for it; takes the exposure over from the layout.
-NightStage night_stage(const DisplayChoice& choice, const AppearanceParameters& scene, Precision precision,
+NightStage night_stage(const StageValues& values, const AppearanceParameters& scene, Precision precision,
                        const std::string& file, ImageLayout& layout, const Notes& notes);
 
 }  // namespace scotopic

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "pipeline/stages/display_stages.h"
 #include "pipeline/stages/stages.h"
 #include "stages/glare/description.h"
 #include "stages/glare/filter.h"
@@ -16,9 +17,9 @@ namespace {
 
 class GlareStage : public FrameStage {
  public:
-  GlareStage(const StageValues& values, const NightDisplayParameters& shown, bool measure)
+  GlareStage(const StageValues& values, bool measure)
       : values_(values),
-        shown_(shown),
+        shown_(night_parameters(values)),
         measure_(measure),
         off_(values.word<Word>("glare") == Word::none),
         rule_(values.word<Word>("glare") == Word::all ? GlareRule::all : GlareRule::above) {}
@@ -152,7 +153,7 @@ std::vector<Attribute> GlareStage::stamps(const StageScene& scene) const {
 }  // namespace
 
 void add_glare(const StageValues& values, ImageSettings& settings) {
-  settings.frame_stages.push_back(std::make_shared<const GlareStage>(values, settings.display.night, settings.measure));
+  settings.frame_stages.push_back(std::make_shared<const GlareStage>(values, settings.measure));
 }
 
 }  // namespace scotopic
