@@ -129,7 +129,7 @@ void PictureRun::see_band(Band&& in, std::deque<AcuityRows>& filters,
   AcuityRows& first = filters.front();
   const Band* band = first.add(std::move(in));
   each_row(*band, [&](int row, Room& room) {
-    see_row(*band, 0, row, room.light);
+    see_row(*band, 0, row, room);
     first.set_row(row, room.light);
   });
   pass_on(filters, 0, use);
@@ -154,7 +154,7 @@ void PictureRun::each_row(const Band& band, const std::function<void(int row, Ro
 
 void PictureRun::run_piece(const Band& in, int x, int row, Room& room, const Band& out) const {
   if (copies()) return copy_row(in, x, row, room.light, out);
-  see_row(in, x, row, room.light);
+  see_row(in, x, row, room);
   write_row(in, x, row, room, out);
 }
 
@@ -202,8 +202,10 @@ std::vector<std::size_t> PictureRun::read_light(const Band& in, int x, int row, 
   return bad;
 }
 
-void PictureRun::see_row(const Band& in, int x, int row, LightRow& light) const {
+void PictureRun::see_row(const Band& in, int x, int row, Room& room) const {
+  LightRow& light = room.light;
   const std::vector<std::size_t> bad = read_light(in, x, row, light, &tally_);
+  if (whole_rows_ && stages_.filters.empty()) room.scene = light;
   if (stages_.evaluator)
     (*stages_.evaluator)(light.pixels(reader_.receptors()), light.touched.data());
   else
@@ -219,7 +221,8 @@ void PictureRun::show_row(const Band& in, int x, int row, Room& room) const {
   const Window& d = source_picture_.display;
   RowSight sight;
   sight.at = {source_picture_.data.x0 + x, in.y0 + row, d.x0, d.y0, d.x1, d.y1, stages_.moment};
-  if (whole_rows_) (void)read_light(in, x, row, room.scene, nullptr);
+  // Behind filters a row comes back later than it was seen: then it is read again rather than kept.
+  if (whole_rows_ && !stages_.filters.empty()) (void)read_light(in, x, row, room.scene, nullptr);
   for (std::size_t i = 0; i < stages_.after.size(); ++i) {
     const RowStage& stage = *stages_.after[i];
     sight.scene = stage.asks_for_scene() ? room.scene.pixels(reader_.receptors()) : PixelRows();

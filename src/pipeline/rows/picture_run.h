@@ -54,7 +54,7 @@ class PictureRun {
   void copy_row(const Band& in, int x, int row, LightRow& room, const Band& out) const;
   std::vector<std::size_t> read_light(const Band& in, int x, int row, LightRow& light,
                                       NonFiniteTally* tally) const;
-  void see_row(const Band& in, int x, int row, LightRow& light) const;
+  void see_row(const Band& in, int x, int row, Room& room) const;
   void show_row(const Band& in, int x, int row, Room& room) const;
   void write_row(const Band& in, int x, int row, Room& room, const Band& out) const;
   NativeRow colour_row(const Band& in, int row, std::size_t c) const;
