@@ -25,6 +25,7 @@ struct StageParameter {
   std::span<const std::string_view> words = {};
   /// An older name that still works; empty: none.
   std::string_view alias = {};
+  bool whole = false;  ///< a number without a fraction
 };
 
 /// The strength that most stages have.

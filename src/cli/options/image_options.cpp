@@ -32,7 +32,7 @@ void add_input_options(CLI::App& verb, ImageOptions& o) {
   add("--config", o.config, "OpenColorIO config; else $OCIO, else the program's own", "FILE");
   add_working_primaries(verb, o.working_primaries);
   add("--colorspace", o.colourspace,
-      "Of the input; else the file's chromaticities, else the config's file rules", "NAME");
+      "Of the input; else what the file says (identifier, chromaticities, profile, tags), else the config's rules", "NAME");
   add("--layer", o.layer, "Which layer or part holds the colour", "NAME");
   const auto limit = [&](const char* name, std::int64_t& value, const char* text) {
     add_limit(verb, name, value, text);

@@ -42,10 +42,9 @@ void set_word(const StageParameter& p, const std::string& text, StageValues& val
 
 void set_parameter(const StageParameter& p, const std::string& text, StageValues& values) {
   if (!p.words.empty()) return set_word(p, text, values);
-  const std::string option = "--" + std::string(p.name);
-  const std::string takes = fmt::format("a number from {:g} to {:g}{}{}", p.low, p.high,
-                                        p.unit.empty() ? "" : ", in ", p.unit);
-  values.set(p.name, number_in(option.c_str(), text, p.low, p.high, takes.c_str()));
+  const std::optional<double> number = parse_number(text);
+  if (!number || !accepts(p, *number)) fail_value(("--" + std::string(p.name)).c_str(), text, range_text(p));
+  values.set(p.name, *number);
 }
 
 /// --acuity, --acuity local: the bilateral filter by name.
@@ -62,8 +61,11 @@ void set_acuity(const std::string& text, StageValues& values) {
 }  // namespace
 
 void add_stage_options(CLI::App& verb, StageOptions& o, StagesShown shown) {
+  const std::string of_images =
+      shown == StagesShown::all ? " (glare, detail and noise where pixels per degree are known, noise in sequences)" : "";
   verb.add_option("--effects", o.effects,
-                  "auto (default: what the scene calls for), all, none, or of " + effect_names(o.table))
+                  "auto (default: what the scene calls for), all" + of_images + ", none, or of " +
+                      effect_names(o.table, shown == StagesShown::fused))
       ->type_name("LIST")
       ->group("What is seen");
   for (const StageEntry& entry : o.table)

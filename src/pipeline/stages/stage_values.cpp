@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "base/error.h"
@@ -47,9 +48,7 @@ const StageValues::Slot& StageValues::slot(std::string_view parameter) const {
 void StageValues::set(std::string_view parameter, double value) {
   Slot& at = slots_[static_cast<std::size_t>(&slot(parameter) - slots_.data())];
   const StageParameter& p = *at.parameter;
-  if (!(value >= p.low && value <= p.high))
-    refuse(p.name, fmt::format("{:g}", value),
-           fmt::format("a number from {:g} to {:g}{}{}", p.low, p.high, p.unit.empty() ? "" : ", in ", p.unit));
+  if (!accepts(p, value)) refuse(p.name, fmt::format("{:g}", value), range_text(p));
   at.value = value;
   at.given = true;
 }
@@ -93,6 +92,15 @@ void StageValues::set_pixel_stages(AppearanceParameters& parameters) const {
     if (entry.set) entry.set(*this, parameters);
 }
 
+bool accepts(const StageParameter& p, double value) noexcept {
+  return value >= p.low && value <= p.high && !(p.whole && value != std::floor(value));
+}
+
+std::string range_text(const StageParameter& p) {
+  return fmt::format("a {}number from {:g} to {:g}{}{}", p.whole ? "whole " : "", p.low, p.high,
+                     p.unit.empty() ? "" : ", in ", p.unit);
+}
+
 std::string joined_words(const StageParameter& parameter) {
   return joined({parameter.words.begin(), parameter.words.end()});
 }
@@ -105,10 +113,10 @@ std::size_t place_of(StageTable table, std::string_view stage) noexcept {
   return static_cast<std::size_t>(found - table.begin());
 }
 
-std::string effect_names(StageTable table) {
+std::string effect_names(StageTable table, bool fused) {
   std::string out;
   for (const StageEntry& entry : table)
-    if (entry.description->switched_by.empty())
+    if (entry.description->switched_by.empty() && (entry.set || !fused))
       out += (out.empty() ? "" : ",") + std::string(entry.description->name);
   return out;
 }

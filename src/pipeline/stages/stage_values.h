@@ -75,13 +75,18 @@ class StageValues {
   std::vector<EffectWish> wishes_;  // in the table's order
 };
 
+/// Whether a number is one of the parameter's; false for NaN.
+bool accepts(const StageParameter& parameter, double value) noexcept;
+/// "a number from 0 to 100, in years".
+std::string range_text(const StageParameter& parameter);
+
 /// "above, all, none".
 std::string joined_words(const StageParameter& parameter);
 
 /// The entry's place by the stage's name or alias; table.size() for none.
 std::size_t place_of(StageTable table, std::string_view stage) noexcept;
 
-/// What a list of --effects may name, with commas, in the table's order.
-std::string effect_names(StageTable table = shipped_stages());
+/// What a list of --effects may name, with commas, in the table's order; `fused`: of the fused loop alone.
+std::string effect_names(StageTable table, bool fused = false);
 
 }  // namespace scotopic

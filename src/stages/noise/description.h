@@ -7,7 +7,7 @@ namespace scotopic {
 
 inline constexpr StageParameter noise_parameters[] = {
     strength_of("strength-noise", "Of the rods' noise, 0 to 1"),
-    {"seed", "", 0, 9007199254740992.0, 0, "Which noise it is: a whole number (default 0)"}};
+    {"seed", "", 0, 9007199254740992.0, 0, "Which noise it is: a whole number (default 0)", {}, {}, true}};
 inline constexpr StageDescription noise_description = {
     "noise", "", "Noise", StageSupport::pixel,
     "RGB, rods' signal, Lloc, place, time", "RGB as few photons let it flicker",

@@ -132,7 +132,7 @@ TEST(StageTable, explain_tells_of_it) {
 
 TEST(StageTable, values_outside_a_range_are_refused_by_the_parameter_s_name) {
   const std::string in = picture("invert-range.exr");
-  for (const auto& [option, value] : {std::pair("--invert-white", "0"), std::pair("--invert-white", "x"),
+  for (const auto& [option, value] : {std::pair("--invert-white", "0"), std::pair("--invert-white", "x"), std::pair("--seed", "0.5"),
                                       std::pair("--age", "101"), std::pair("--seed", "-1"),
                                       std::pair("--detail", "sharp"), std::pair("--effects", "inverted")})
     try {
