@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "io/pixel_type.h"
+#include "io/pixels/pixel_type.h"
 #include "color/file/colour_tags.h"
 
 namespace scotopic {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "adaptation/dark_adaptation.h"
+#include "adaptation/time/dark_adaptation.h"
 #include "base/error.h"
 #include "host/controls.h"
 #include "ofx/image.h"

@@ -2,7 +2,7 @@
 
 #include <deque>
 
-#include "io/row_bands.h"
+#include "io/pixels/row_bands.h"
 #include "pipeline/rows/picture_run.h"
 
 namespace scotopic {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "pipeline/evaluator.h"
-#include "pipeline/layout.h"
+#include "pipeline/layout/layout.h"
 #include "pipeline/rows/frame_light.h"
 #include "pipeline/rows/non_finite.h"
 #include "pipeline/rows/stages.h"

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "io/row_bands.h"
+#include "io/pixels/row_bands.h"
 #include "pipeline/rows/light_path.h"
 #include "receptors/receptor_space.h"
 

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "io/atomic/output_file.h"
-#include "io/row_bands.h"
+#include "io/pixels/row_bands.h"
 #include "pipeline/rows/acuity_rows.h"
 #include "pipeline/scene/open_image.h"
 #include "pipeline/scene/scene_plan.h"

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "adaptation/dark_adaptation.h"
+#include "adaptation/time/dark_adaptation.h"
 #include "base/limits.h"
 #include "color/colour_config.h"
 #include "io/spectral/spectral_source.h"
-#include "pipeline/layout.h"
+#include "pipeline/layout/layout.h"
 #include "pipeline/rows/non_finite.h"
 #include "pipeline/rows/stages.h"
 #include "pipeline/stages/stage_values.h"

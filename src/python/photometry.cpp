@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "adaptation/dark_adaptation.h"
+#include "adaptation/time/dark_adaptation.h"
 #include "adaptation/ladder.h"
 #include "adaptation/mesopic.h"
 #include "adaptation/pupil.h"

@@ -1,5 +1,5 @@
 // Pigment against numbers made apart from this code, and against the differential equation itself.
-#include "adaptation/bleaching.h"
+#include "adaptation/time/bleaching.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Adaptation in time, against tables made in double apart from this code and printed to the digits they have
 // here.
-#include "adaptation/dark_adaptation.h"
+#include "adaptation/time/dark_adaptation.h"
 
 #include <gtest/gtest.h>
 

@@ -18,7 +18,7 @@
 #include "looks/verify/timing.h"
 #include "looks/verify/ways.h"
 #include "pipeline/apply_image.h"
-#include "io/row_bands.h"
+#include "io/pixels/row_bands.h"
 #include "properties/mpfr_reference.h"
 #include "support/primaries.h"
 

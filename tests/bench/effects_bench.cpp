@@ -24,7 +24,7 @@
 #include "batch/batch.h"
 #include "looks/verify/contenders.h"
 #include "looks/verify/timing.h"
-#include "io/pixel_type.h"
+#include "io/pixels/pixel_type.h"
 #include "support/primaries.h"
 
 namespace {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "pipeline/apply_image.h"
-#include "io/row_bands.h"
+#include "io/pixels/row_bands.h"
 #include "io/spectral/spectral_source.h"
 #include "receptors/spectral_integrator.h"
 #include "io/spectral/scene.h"

@@ -10,7 +10,7 @@
 #include "faults/sweep.h"
 #include "base/error.h"
 #include "io/pixel_source.h"
-#include "io/row_bands.h"
+#include "io/pixels/row_bands.h"
 
 namespace scotopic::test {
 namespace {

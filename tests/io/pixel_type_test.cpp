@@ -1,4 +1,4 @@
-#include "io/pixel_type.h"
+#include "io/pixels/pixel_type.h"
 
 #include <Imath/half.h>
 #include <gtest/gtest.h>

@@ -13,7 +13,7 @@
 
 #include "batch/batch.h"
 #include "support/exr_files.h"
-#include "io/pixel_type.h"
+#include "io/pixels/pixel_type.h"
 
 namespace scotopic {
 namespace {

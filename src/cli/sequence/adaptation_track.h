@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "adaptation/dark_adaptation.h"
+#include "adaptation/time/dark_adaptation.h"
 #include "pipeline/run.h"
 
 namespace scotopic {

@@ -11,7 +11,7 @@
 
 #include "base/digest.h"
 #include "base/error.h"
-#include "io/row_bands.h"
+#include "io/pixels/row_bands.h"
 #include "io/spectral/spectral_source.h"
 #include "pipeline/scene/stamps.h"
 

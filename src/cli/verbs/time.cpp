@@ -20,7 +20,7 @@
 #include "cli/options/spectral_options.h"
 #include "cli/report/time_report.h"
 #include "cli/options/values.h"
-#include "io/row_bands.h"
+#include "io/pixels/row_bands.h"
 #include "pipeline/rows/light_path.h"
 
 namespace scotopic {

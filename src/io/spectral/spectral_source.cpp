@@ -17,7 +17,7 @@
 #include "io/exr/exr_headers.h"
 #include "io/exr/open_exr.h"
 #include "io/exr/exr_source.h"
-#include "io/row_bands.h"
+#include "io/pixels/row_bands.h"
 #include "io/spectral/spectral_header.h"
 #include "receptors/illuminant.h"
 #include "receptors/receptor_space.h"

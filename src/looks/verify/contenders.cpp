@@ -8,8 +8,8 @@
 
 #include "batch/batch.h"
 #include "stages/reference.h"
-#include "io/pixel_type.h"
-#include "io/row_bands.h"
+#include "io/pixels/pixel_type.h"
+#include "io/pixels/row_bands.h"
 
 namespace scotopic {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "io/copy_pixels.h"
+#include "io/pixels/copy_pixels.h"
 
 namespace scotopic {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "io/row_bands.h"
+#include "io/pixels/row_bands.h"
 
 namespace scotopic {
 

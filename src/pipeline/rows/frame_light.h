@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "pipeline/layout.h"
+#include "pipeline/layout/layout.h"
 #include "pipeline/rows/light_path.h"
 #include "pipeline/rows/non_finite.h"
 #include "pipeline/rows/stages.h"

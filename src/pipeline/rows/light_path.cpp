@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "stages/limits.h"
-#include "io/copy_pixels.h"
+#include "io/pixels/copy_pixels.h"
 #include "receptors/receptor_space.h"
 
 namespace scotopic {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "io/copy_pixels.h"
-#include "io/row_bands.h"
+#include "io/pixels/copy_pixels.h"
+#include "io/pixels/row_bands.h"
 
 namespace scotopic {
 namespace {

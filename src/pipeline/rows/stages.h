@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "adaptation/dark_adaptation.h"
+#include "adaptation/time/dark_adaptation.h"
 #include "batch/batch.h"
 #include "io/picture.h"
 #include "pipeline/notes.h"

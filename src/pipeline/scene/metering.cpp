@@ -2,7 +2,7 @@
 #include <deque>
 #include <mutex>
 
-#include "io/row_bands.h"
+#include "io/pixels/row_bands.h"
 #include "pipeline/apply_image.h"
 #include "pipeline/rows/picture_run.h"
 

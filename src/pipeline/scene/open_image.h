@@ -6,7 +6,7 @@
 #include <string>
 
 #include "io/pixel_source.h"
-#include "pipeline/layout.h"
+#include "pipeline/layout/layout.h"
 #include "pipeline/notes.h"
 #include "pipeline/scene/scene_numbers.h"
 #include "pipeline/settings.h"

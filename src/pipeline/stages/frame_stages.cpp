@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "io/row_bands.h"
+#include "io/pixels/row_bands.h"
 #include "pipeline/scene/angular_resolution.h"
 
 namespace scotopic {

@@ -33,7 +33,7 @@ struct AppearanceParameters {
   double adaptation = 0.1;
   /// cd/m2 that image value 1 stands for (the "unit"); > 0 and finite.
   double white_luminance = 0.1 / 0.18;
-  /// L_r, cd/m2: what rods are adapted to where that is not La, as after other light (adaptation/dark_adaptation.h).
+  /// L_r, cd/m2: what rods are adapted to where that is not La, as after other light (adaptation/time/dark_adaptation.h).
   std::optional<double> rod_adaptation;
   Weight weight = Weight::local;
   LuminancePolicy luminance = LuminancePolicy::mesopic;

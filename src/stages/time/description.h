@@ -1,4 +1,4 @@
-// Stage `time`, described: adaptation/dark_adaptation.h computes it.
+// Stage `time`, described: adaptation/time/dark_adaptation.h computes it.
 #pragma once
 
 #include "stages/description.h"

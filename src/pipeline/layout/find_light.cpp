@@ -1,4 +1,4 @@
-#include "pipeline/find_light.h"
+#include "pipeline/layout/find_light.h"
 
 #include <algorithm>
 #include <set>

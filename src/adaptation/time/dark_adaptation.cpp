@@ -1,11 +1,11 @@
-#include "adaptation/dark_adaptation.h"
+#include "adaptation/time/dark_adaptation.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 
-#include "adaptation/bleaching.h"
+#include "adaptation/time/bleaching.h"
 #include "adaptation/pupil.h"
 #include "receptors/rods.h"
 

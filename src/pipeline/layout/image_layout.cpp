@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "pipeline/find_light.h"
-#include "pipeline/layout.h"
+#include "pipeline/layout/find_light.h"
+#include "pipeline/layout/layout.h"
 #include "pipeline/rows/light_path.h"
 
 namespace scotopic {

@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "io/pixel_type.h"
+#include "io/pixels/pixel_type.h"
 
 namespace scotopic {
 

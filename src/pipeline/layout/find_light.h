@@ -1,7 +1,7 @@
 // Which of a file's pictures are light, and whose colours they are.
 #pragma once
 
-#include "pipeline/layout.h"
+#include "pipeline/layout/layout.h"
 
 namespace scotopic {
 

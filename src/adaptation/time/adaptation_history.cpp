@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "adaptation/dark_adaptation.h"
+#include "adaptation/time/dark_adaptation.h"
 #include "adaptation/ladder.h"
 
 namespace scotopic {

@@ -1,4 +1,4 @@
-#include "adaptation/bleaching.h"
+#include "adaptation/time/bleaching.h"
 
 #include <cmath>
 
