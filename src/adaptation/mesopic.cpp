@@ -47,7 +47,8 @@ double mesopic_coefficient(double photopic, double sp_ratio) noexcept {
   double m = std::clamp(from_photopic, 0.0, 1.0);
   for (int i = 0; i < 20; ++i) {
     const double f = from_photopic + mes2_slope * std::log10(mesopic_over_photopic(m, sp_ratio)) - m;
-    const double df = slope * ((1 - sp_ratio * c) / (m + (1 - m) * sp_ratio * c) - (1 - c) / (m + (1 - m) * c)) - 1;
+    const double df =
+        slope * ((1 - sp_ratio * c) / (m + (1 - m) * sp_ratio * c) - (1 - c) / (m + (1 - m) * c)) - 1;
     const double step = f / df;
     m = std::clamp(m - step, 0.0, 1.0);
     if (std::abs(step) < 1e-16) break;

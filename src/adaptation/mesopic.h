@@ -28,8 +28,8 @@ double mesopic_photopic_limit() noexcept;
 double mesopic_scotopic_limit(double sp_ratio = sp_ratio_d65) noexcept;
 
 /// m of a light of luminance `photopic` and the given S/P ratio: the same fixed point, by Newton's method on
-/// its explicit inverse, to 2 ulp of 1. Non-decreasing in `photopic`; exactly 0 and 1 outside the two limits. (For S/P under .1, less
-/// than any lamp's, MES2 has two fixed points at once; this is the lower one.)
+/// its explicit inverse, to 2 ulp of 1. Non-decreasing in `photopic`; exactly 0 and 1 outside the two limits.
+/// (For S/P under .1, less than any lamp's, MES2 has two fixed points at once; this is the lower one.)
 double mesopic_coefficient(double photopic, double sp_ratio = sp_ratio_d65) noexcept;
 
 /// Lmes, cd/m2, of a light under the adaptation coefficient `m`: (m Lp + (1-m) Ls C)/(m + (1-m) C).

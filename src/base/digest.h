@@ -8,7 +8,8 @@ namespace scotopic {
 
 std::string sha256(std::string_view bytes);
 
-/// Of a regular file's contents, whatever its size; neither name nor times count. Error(input) where it cannot be read.
+/// Of a regular file's contents, whatever its size; neither name nor times count. Error(input) where it
+/// cannot be read.
 std::string sha256_of_file(const std::string& file);
 
 }  // namespace scotopic

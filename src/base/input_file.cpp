@@ -42,14 +42,16 @@ std::int64_t checked_size(int descriptor, const std::string& file, ExitCode code
 
 }  // namespace
 
-std::int64_t check_input_file(const std::string& file, ExitCode code, std::int64_t limit, const char* option) {
+std::int64_t check_input_file(const std::string& file, ExitCode code, std::int64_t limit,
+                              const char* option) {
   const Descriptor descriptor(file, code);
   return checked_size(descriptor.number, file, code, limit, option);
 }
 
 std::string read_input_file(const std::string& file, ExitCode code, std::int64_t limit, const char* option) {
   const Descriptor descriptor(file, code);
-  std::string text(static_cast<std::size_t>(checked_size(descriptor.number, file, code, limit, option)), '\0');
+  std::string text(static_cast<std::size_t>(checked_size(descriptor.number, file, code, limit, option)),
+                   '\0');
   std::size_t done = 0;
   while (done < text.size()) {
     const ssize_t n = read(descriptor.number, text.data() + done, text.size() - done);

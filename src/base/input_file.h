@@ -8,9 +8,9 @@
 
 namespace scotopic {
 
-/// Throws Error(code) unless `file` is there, a regular file (no folder, device or pipe, which could be without
-/// end) and may be read; Error(limit) unless it is of no more than `limit` bytes, which `option` raises
-/// (empty: none does). Returns its size.
+/// Throws Error(code) unless `file` is there, a regular file (no folder, device or pipe, which could be
+/// without end) and may be read; Error(limit) unless it is of no more than `limit` bytes, which `option`
+/// raises (empty: none does). Returns its size.
 std::int64_t check_input_file(const std::string& file, ExitCode code, std::int64_t limit, const char* option);
 
 /// All of the file, after that check.

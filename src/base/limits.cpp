@@ -7,8 +7,8 @@
 namespace scotopic {
 namespace {
 
-[[noreturn]] void fail(const std::string& file, const char* what, const std::string& value, std::int64_t limit,
-                       const char* option) {
+[[noreturn]] void fail(const std::string& file, const char* what, const std::string& value,
+                       std::int64_t limit, const char* option) {
   throw Error(ExitCode::limit, file,
               fmt::format("{} {} exceeds the limit of {}{}", what, value, limit,
                           *option ? fmt::format(" (raise it with {})", option) : ""));

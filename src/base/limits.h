@@ -6,7 +6,8 @@
 
 namespace scotopic {
 
-/// Exceeding one is Error(ExitCode::limit); the message has the number, the limit and the option that raises it.
+/// Exceeding one is Error(ExitCode::limit); the message has the number, the limit and the option that raises
+/// it.
 struct Limits {
   std::int64_t side = 262144;                    ///< of a picture or a tile, --max-side
   std::int64_t pixels = std::int64_t{1} << 32;   ///< of a picture, --max-pixels

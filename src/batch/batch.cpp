@@ -36,7 +36,8 @@ HWY_INLINE void mark(std::uint8_t* touched, std::size_t lanes, std::uint64_t bit
 
 template <class V, class M>
 HWY_INLINE Triple<V> chosen(const M& mask, const Triple<V>& yes, const Triple<V>& no) {
-  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.z, no.z)};
+  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
+          hn::IfThenElse(mask, yes.z, no.z)};
 }
 
 template <class D>
@@ -48,10 +49,11 @@ std::uint64_t lane_bits(D d, hn::Mask<D> mask) {
   return bits;
 }
 
-// Computes in double the pixels at `at` that `bits` names, and says which of them were active; `lanes` pixels may be read.
+// Computes in double the pixels at `at` that `bits` names, and says which of them were active; `lanes` pixels
+// may be read.
 template <class Rows>
-std::uint64_t apply_exactly(const WideConstants<double>& exact, const Rows& rows, std::size_t at, std::size_t lanes,
-                            std::uint64_t bits) {
+std::uint64_t apply_exactly(const WideConstants<double>& exact, const Rows& rows, std::size_t at,
+                            std::size_t lanes, std::uint64_t bits) {
   using D = Tag<double>;
   const D d;
   const Fused<D> op(exact);
@@ -74,19 +76,20 @@ std::uint64_t apply_exactly(const WideConstants<double>& exact, const Rows& rows
 // Stores the lanes that `active` names, or computes them again where `doubtful`; says which were.
 template <class Rows>
 HWY_NOINLINE std::uint64_t store_some(const WideConstants<double>& exact, const Results<Element<Rows>>& out,
-                                      const Rows& rows, std::size_t at, std::size_t lanes, std::uint64_t active,
-                                      std::uint64_t doubtful) {
+                                      const Rows& rows, std::size_t at, std::size_t lanes,
+                                      std::uint64_t active, std::uint64_t doubtful) {
   active &= ~doubtful;
   for (std::size_t i = 0; i < lanes; ++i)
     if (active >> i & 1u) out.copy(i, rows, at + i);
   return doubtful ? active | apply_exactly(exact, rows, at, lanes, doubtful) : active;
 }
 
-// Stores the results of one vector of pixels, `p` as they came in. Pixels that are not touched keep their bits.
+// Stores the results of one vector of pixels, `p` as they came in. Pixels that are not touched keep their
+// bits.
 template <class D, class Rows>
 HWY_INLINE void store_mixed(D d, const WideConstants<double>& exact, const PixelIn<hn::Vec<D>>& p,
-                              const SeenPixel<hn::Vec<D>, hn::Mask<D>>& seen, const Rows& rows, std::size_t at,
-                              ElementVector<D, Element<Rows>> alpha, std::uint8_t* touched) {
+                            const SeenPixel<hn::Vec<D>, hn::Mask<D>>& seen, const Rows& rows, std::size_t at,
+                            ElementVector<D, Element<Rows>> alpha, std::uint8_t* touched) {
   const std::size_t lanes = hn::Lanes(d);
   const std::uint64_t active = lane_bits(d, seen.active), doubtful = lane_bits(d, seen.doubtful);
   if (active == 0 || (doubtful == 0 && std::is_same_v<hn::TFromD<D>, Element<Rows>>)) {
@@ -103,8 +106,9 @@ HWY_INLINE void store_mixed(D d, const WideConstants<double>& exact, const Pixel
 
 // One vector of pixels at `at`.
 template <StageSet stages, Receptors receptors, class D, class Rows>
-HWY_INLINE void apply_vector(const PixelStages<LaneNumbers<D>, stages, receptors>& op, const WideConstants<double>& exact,
-                             const Rows& rows, std::size_t at, std::uint8_t* touched) {
+HWY_INLINE void apply_vector(const PixelStages<LaneNumbers<D>, stages, receptors>& op,
+                             const WideConstants<double>& exact, const Rows& rows, std::size_t at,
+                             std::uint8_t* touched) {
   const D d;
   auto alpha = hn::Zero(hn::Rebind<Element<Rows>, D>());
   const auto p = load_pixels<receptors>(d, rows, at, alpha);
@@ -122,8 +126,8 @@ HWY_INLINE void apply_vector(const PixelStages<LaneNumbers<D>, stages, receptors
 
 // The same by code that asks which stages are on.
 template <typename T, class Rows>
-HWY_NOINLINE void apply_any(const WideConstants<T>& main, const WideConstants<double>& exact, const Rows& rows,
-                            std::size_t at, std::uint8_t* touched) {
+HWY_NOINLINE void apply_any(const WideConstants<T>& main, const WideConstants<double>& exact,
+                            const Rows& rows, std::size_t at, std::uint8_t* touched) {
   apply_vector(Fused<Tag<T>>(main), exact, rows, at, touched);
 }
 
@@ -135,7 +139,8 @@ HWY_INLINE void apply_pair(const PixelStages<LaneNumbers<lanes::PairTag<D>>, sta
   const D d;
   const std::size_t second = at + hn::Lanes(d);
   auto alpha_a = hn::Zero(hn::Rebind<Element<Rows>, D>()), alpha_b = alpha_a;
-  const auto a = load_pixels<receptors>(d, rows, at, alpha_a), b = load_pixels<receptors>(d, rows, second, alpha_b);
+  const auto a = load_pixels<receptors>(d, rows, at, alpha_a),
+             b = load_pixels<receptors>(d, rows, second, alpha_b);
   typename PixelStages<LaneNumbers<lanes::PairTag<D>>, stages, receptors>::Seen seen;
   if (!op(paired(a, b), seen)) {
     if (touched) std::memset(touched + at, 0, 2 * hn::Lanes(d));
@@ -153,8 +158,8 @@ HWY_INLINE void apply_pair(const PixelStages<LaneNumbers<lanes::PairTag<D>>, sta
 
 // Fewer pixels than a vector holds: through a padded copy, by the same arithmetic.
 template <typename T, class Rows>
-HWY_NOINLINE void apply_part(const WideConstants<T>& main, const WideConstants<double>& exact, const Rows& rows,
-                             std::size_t at, std::size_t count, std::uint8_t* touched) {
+HWY_NOINLINE void apply_part(const WideConstants<T>& main, const WideConstants<double>& exact,
+                             const Rows& rows, std::size_t at, std::size_t count, std::uint8_t* touched) {
   Padded<Rows> padded;
   padded.in(rows, at, count);
   std::uint8_t touched_copy[most_lanes] = {};
@@ -169,7 +174,8 @@ constexpr std::size_t worth_aligning = 64;
 template <class D>
 using PairOf = lanes::PairTag<D>;
 
-// The operator's stages hang on each other, a long chain; the kernel's few do not: there pairs are but more to hold.
+// The operator's stages hang on each other, a long chain; the kernel's few do not: there pairs are but more
+// to hold.
 constexpr bool in_pairs(StageSet stages) { return stages != StageSet::any && stages != StageSet::kernel; }
 
 template <StageSet stages, Receptors receptors, typename T, class Rows>
@@ -193,8 +199,8 @@ void apply_stages(const WideConstants<T>& main, const WideConstants<double>& exa
     apply_part(main, exact, rows, at, std::min(lanes, rows.count - at), touched);
 }
 
-// Code of their own have all stages in float, for every layout; double, and the kernel, as planes; and on planes of
-// float, which are what the image tool works on, what a plan leaves of the stages.
+// Code of their own have all stages in float, for every layout; double, and the kernel, as planes; and on
+// planes of float, which are what the image tool works on, what a plan leaves of the stages.
 template <typename T, class Rows>
 void apply_rgb(const WideConstants<T>& main, const WideConstants<double>& exact, const Rows& rows,
                std::uint8_t* touched) {
@@ -245,16 +251,16 @@ void apply_planes(const WideConstants<float>* main, const WideConstants<double>&
                   std::uint8_t* touched) {
   apply_rows(main, exact, rows, touched);
 }
-void apply_half_planes(const WideConstants<float>* main, const WideConstants<double>& exact, const HalfRows& rows,
-                       std::uint8_t* touched) {
+void apply_half_planes(const WideConstants<float>* main, const WideConstants<double>& exact,
+                       const HalfRows& rows, std::uint8_t* touched) {
   apply_rows(main, exact, rows, touched);
 }
-void apply_rgba(const WideConstants<float>* main, const WideConstants<double>& exact, float* rgba, std::size_t count,
-                std::uint8_t* touched) {
+void apply_rgba(const WideConstants<float>* main, const WideConstants<double>& exact, float* rgba,
+                std::size_t count, std::uint8_t* touched) {
   apply_rows(main, exact, RgbaRows<float>{rgba, count}, touched);
 }
-void apply_half_rgba(const WideConstants<float>* main, const WideConstants<double>& exact, std::uint16_t* rgba,
-                     std::size_t count, std::uint8_t* touched) {
+void apply_half_rgba(const WideConstants<float>* main, const WideConstants<double>& exact,
+                     std::uint16_t* rgba, std::size_t count, std::uint8_t* touched) {
   apply_rows(main, exact, RgbaRows<std::uint16_t>{rgba, count}, touched);
 }
 

@@ -32,8 +32,8 @@ struct HalfRows {
 };
 
 /// Number type inside; planes are float either way. single: error <= 2e-6 of the pixel's largest component,
-/// in or out, over 1e-6 to 1e6 cd/m2; 4e-6 with quadratic rods; 8e-6 for colours of no light, left over from a
-/// cancellation (tests/appearance, tests/properties); colours whose luminance is the rest of a
+/// in or out, over 1e-6 to 1e6 cd/m2; 4e-6 with quadratic rods; 8e-6 for colours of no light, left over from
+/// a cancellation (tests/appearance, tests/properties); colours whose luminance is the rest of a
 /// cancellation, or with a negative cone signal, are computed in double. dual: double inside, rounded once.
 enum class Precision { single, dual };
 
@@ -51,7 +51,8 @@ class AppearanceBatch {
   AppearanceBatch& operator=(AppearanceBatch&&) noexcept;
 
   /// Applies the operator in place. Where `touched` is given (count bytes), touched[i] says whether pixel i
-  /// was computed: 0 means it has the very bits it came in with (photopic, or not a finite number below 2^120).
+  /// was computed: 0 means it has the very bits it came in with (photopic, or not a finite number below
+  /// 2^120).
   void apply(const PixelRows& rows, std::uint8_t* touched = nullptr) const noexcept;
 
   /// The same results rounded once more, to half (nearest, ties to even; beyond 65504, that).
@@ -60,7 +61,8 @@ class AppearanceBatch {
   /// The same for pixels of R, G, B, A next to each other, as float or as half. A keeps its bits.
   void apply_rgba(float* rgba, std::size_t count, std::uint8_t* touched = nullptr) const noexcept;
   /// The same for pixels as half.
-  void apply_rgba(std::uint16_t* half_rgba, std::size_t count, std::uint8_t* touched = nullptr) const noexcept;
+  void apply_rgba(std::uint16_t* half_rgba, std::size_t count,
+                  std::uint8_t* touched = nullptr) const noexcept;
 
  private:
   struct Constants;

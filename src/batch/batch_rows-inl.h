@@ -1,5 +1,5 @@
-// Rows of pixels as they lie in memory, and a vector of them as the operator takes it. Compiled once per SIMD target
-// (see batch.cpp).
+// Rows of pixels as they lie in memory, and a vector of them as the operator takes it. Compiled once per SIMD
+// target (see batch.cpp).
 #if defined(SCOTOPIC_BATCH_ROWS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SCOTOPIC_BATCH_ROWS_INL_H_
 #undef SCOTOPIC_BATCH_ROWS_INL_H_
@@ -75,7 +75,7 @@ HWY_INLINE void store(D d, hn::Vec<D> v, E* to) {
 // Loads a vector of pixels; `alpha` is for the layout that has it. With the receptors of `receptors`.
 template <Receptors receptors, class D>
 HWY_INLINE PixelIn<hn::Vec<D>> load_pixels(D d, const PixelRows& rows, std::size_t at,
-                                               ElementVector<D, float>&) {
+                                           ElementVector<D, float>&) {
   const auto zero = hn::Zero(d);
   const Triple<hn::Vec<D>> rgb = {load(d, rows.r + at), load(d, rows.g + at), load(d, rows.b + at)};
   if constexpr (receptors == Receptors::absent) return {rgb, {zero, zero, zero}, zero, false, false};
@@ -94,13 +94,17 @@ HWY_INLINE PixelIn<hn::Vec<D>> load_pixels(D d, const PixelRows& rows, std::size
 }
 template <Receptors, class D>
 HWY_INLINE PixelIn<hn::Vec<D>> load_pixels(D d, const HalfRows& rows, std::size_t at,
-                                               ElementVector<D, std::uint16_t>&) {
+                                           ElementVector<D, std::uint16_t>&) {
   const auto zero = hn::Zero(d);
-  return {{load(d, rows.r + at), load(d, rows.g + at), load(d, rows.b + at)}, {zero, zero, zero}, zero, false, false};
+  return {{load(d, rows.r + at), load(d, rows.g + at), load(d, rows.b + at)},
+          {zero, zero, zero},
+          zero,
+          false,
+          false};
 }
 template <Receptors, class D, typename E>
 HWY_INLINE PixelIn<hn::Vec<D>> load_pixels(D d, const RgbaRows<E>& rows, std::size_t at,
-                                               ElementVector<D, E>& alpha) {
+                                           ElementVector<D, E>& alpha) {
   auto r = alpha, g = alpha, b = alpha;
   hn::LoadInterleaved4(hn::Rebind<E, D>(), rows.rgba + 4 * at, r, g, b, alpha);
   const auto zero = hn::Zero(d);
@@ -157,8 +161,9 @@ struct Padded<PixelRows> {
       std::copy_n(plane + at, count, to);
       return to;
     };
-    rows = {fill(from.r, planes[0]),      fill(from.g, planes[1]),      fill(from.b, planes[2]),
-            fill(from.cone_l, planes[3]), fill(from.cone_m, planes[4]), fill(from.cone_s, planes[5]),
+    rows = {fill(from.r, planes[0]),      fill(from.g, planes[1]),
+            fill(from.b, planes[2]),      fill(from.cone_l, planes[3]),
+            fill(from.cone_m, planes[4]), fill(from.cone_s, planes[5]),
             fill(from.rod, planes[6]),    most_lanes};
   }
   void out(const PixelRows& to, std::size_t at, std::size_t count) const {
@@ -198,8 +203,8 @@ struct Padded<RgbaRows<E>> {
   }
 };
 
-// Pixels before the first at which vectors of `lanes` elements lie aligned, in all planes at once; 0 where there is
-// none. Loads and stores that straddle two cache lines cost twice; with AVX-512 each one would.
+// Pixels before the first at which vectors of `lanes` elements lie aligned, in all planes at once; 0 where
+// there is none. Loads and stores that straddle two cache lines cost twice; with AVX-512 each one would.
 template <typename E>
 std::size_t elements_before_aligned(const E* plane, std::size_t lanes) {
   const std::size_t bytes = lanes * sizeof(E);

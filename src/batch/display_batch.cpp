@@ -16,8 +16,9 @@ namespace scotopic::HWY_NAMESPACE {
 
 // Stores what becomes of the pixels at `at`; says of each whether it changed.
 template <class D>
-HWY_INLINE void show_vector(D d, const WideNumbers<DisplayConstants<hn::TFromD<D>>>& k, const DisplaySwitches& on,
-                            const PixelRows& rows, std::size_t at, std::uint8_t* touched) {
+HWY_INLINE void show_vector(D d, const WideNumbers<DisplayConstants<hn::TFromD<D>>>& k,
+                            const DisplaySwitches& on, const PixelRows& rows, std::size_t at,
+                            std::uint8_t* touched) {
   const LaneNumbers<D, DisplayConstants<hn::TFromD<D>>> n(k);
   const Triple<hn::Vec<D>> in = {load(d, rows.r + at), load(d, rows.g + at), load(d, rows.b + at)};
   const auto limit = n.number(hn::TFromD<D>(operable_limit));
@@ -28,7 +29,8 @@ HWY_INLINE void show_vector(D d, const WideNumbers<DisplayConstants<hn::TFromD<D
   store(d, out.y, rows.g + at);
   store(d, out.z, rows.b + at);
   if (!touched) return;
-  const auto changed = n.either(n.either(n.not_equal(out.x, in.x), n.not_equal(out.y, in.y)), n.not_equal(out.z, in.z));
+  const auto changed =
+      n.either(n.either(n.not_equal(out.x, in.x), n.not_equal(out.y, in.y)), n.not_equal(out.z, in.z));
   if (n.none(n.both(changed, operable))) return;
   std::uint8_t bits[8] = {};
   hn::StoreMaskBits(d, n.both(changed, operable), bits);
@@ -54,12 +56,12 @@ void show_rows(const WideNumbers<DisplayConstants<T>>& k, const DisplaySwitches&
       touched[i] = static_cast<std::uint8_t>(touched[i] | touched_copy[i - at]);
 }
 
-void show_single(const WideNumbers<DisplayConstants<float>>& k, const DisplaySwitches& on, const PixelRows& rows,
-                 std::uint8_t* touched) {
+void show_single(const WideNumbers<DisplayConstants<float>>& k, const DisplaySwitches& on,
+                 const PixelRows& rows, std::uint8_t* touched) {
   show_rows(k, on, rows, touched);
 }
-void show_dual(const WideNumbers<DisplayConstants<double>>& k, const DisplaySwitches& on, const PixelRows& rows,
-               std::uint8_t* touched) {
+void show_dual(const WideNumbers<DisplayConstants<double>>& k, const DisplaySwitches& on,
+               const PixelRows& rows, std::uint8_t* touched) {
   show_rows(k, on, rows, touched);
 }
 
@@ -75,8 +77,10 @@ HWY_EXPORT(show_dual);
 struct DisplayBatch::Constants {
   Constants(const NightDisplayParameters& p, Precision precision)
       : on(p), range_kept(p.shoulder == Shoulder::clip && display_scale(p) == 1) {
-    if (precision == Precision::single) single.emplace(DisplayConstants<float>(p));
-    else dual.emplace(DisplayConstants<double>(p));
+    if (precision == Precision::single)
+      single.emplace(DisplayConstants<float>(p));
+    else
+      dual.emplace(DisplayConstants<double>(p));
   }
 
   DisplaySwitches on;
@@ -92,8 +96,10 @@ DisplayBatch::~DisplayBatch() = default;
 bool DisplayBatch::keeps_range() const noexcept { return constants_->range_kept; }
 
 void DisplayBatch::apply(const PixelRows& rows, std::uint8_t* touched) const noexcept {
-  if (constants_->single) HWY_DYNAMIC_DISPATCH(show_single)(*constants_->single, constants_->on, rows, touched);
-  else HWY_DYNAMIC_DISPATCH(show_dual)(*constants_->dual, constants_->on, rows, touched);
+  if (constants_->single)
+    HWY_DYNAMIC_DISPATCH(show_single)(*constants_->single, constants_->on, rows, touched);
+  else
+    HWY_DYNAMIC_DISPATCH(show_dual)(*constants_->dual, constants_->on, rows, touched);
 }
 
 }  // namespace scotopic

@@ -1,5 +1,5 @@
-// IEEE 754 binary16 to binary32 and back, a vector at a time. Compiled once per SIMD target. The same bits on every
-// target: by the machine's own instructions where AVX2 promises them, else by integer arithmetic.
+// IEEE 754 binary16 to binary32 and back, a vector at a time. Compiled once per SIMD target. The same bits on
+// every target: by the machine's own instructions where AVX2 promises them, else by integer arithmetic.
 #if defined(SCOTOPIC_HALF_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SCOTOPIC_HALF_INL_H_
 #undef SCOTOPIC_HALF_INL_H_
@@ -26,8 +26,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class F>
 using HalfTag = hn::Rebind<std::uint16_t, F>;
 
-// Exactly; infinity stays what it is. NaN stays NaN, and keeps its payload where `any_nan` (else a signalling one may
-// become quiet).
+// Exactly; infinity stays what it is. NaN stays NaN, and keeps its payload where `any_nan` (else a signalling
+// one may become quiet).
 template <bool any_nan, class F>
 HWY_INLINE hn::Vec<F> float_from_half(F d, hn::Vec<HalfTag<F>> half) {
   const hn::RebindToUnsigned<F> u;
@@ -36,7 +36,8 @@ HWY_INLINE hn::Vec<F> float_from_half(F d, hn::Vec<HalfTag<F>> half) {
     return hn::PromoteTo(d, hn::BitCast(hn::Rebind<hwy::float16_t, F>(), half));
   const auto bits = hn::PromoteTo(u, half);
   const auto magnitude = hn::And(bits, hn::Set(u, 0x7fff));
-  // 13 more bits of mantissa; the exponent's bias is 127, not 15, and its largest, of NaN and infinity, 255, not 31.
+  // 13 more bits of mantissa; the exponent's bias is 127, not 15, and its largest, of NaN and infinity, 255,
+  // not 31.
   const auto widened = hn::ShiftLeft<13>(magnitude);
   const auto odd = hn::IfThenElseZero(hn::Gt(magnitude, hn::Set(u, 0x7bff)), hn::Set(u, 112u << 23));
   const auto normal = hn::BitCast(d, hn::Add(hn::Add(widened, hn::Set(u, 112u << 23)), odd));

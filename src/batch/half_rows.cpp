@@ -29,7 +29,8 @@ HWY_INLINE void floats_from_vector(const std::uint16_t* halves, float* out) {
   const HalfTag<Floats> h;
   const auto bits = hn::LoadU(h, halves);
   const auto nan = hn::Gt(hn::And(bits, hn::Set(h, 0x7fff)), hn::Set(h, 0x7c00));
-  const auto value = HWY_UNLIKELY(!hn::AllFalse(h, nan)) ? float_from_half<true>(d, bits) : float_from_half<false>(d, bits);
+  const auto value =
+      HWY_UNLIKELY(!hn::AllFalse(h, nan)) ? float_from_half<true>(d, bits) : float_from_half<false>(d, bits);
   hn::StoreU(value, d, out);
 }
 

@@ -1,5 +1,5 @@
-// Vectors of pixels as a number type (stages/shared/numbers-inl.h). No MulAdd anywhere: fused and unfused targets would
-// differ in the last bit.
+// Vectors of pixels as a number type (stages/shared/numbers-inl.h). No MulAdd anywhere: fused and unfused
+// targets would differ in the last bit.
 #if defined(SCOTOPIC_BATCH_LANE_NUMBERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SCOTOPIC_BATCH_LANE_NUMBERS_INL_H_
 #undef SCOTOPIC_BATCH_LANE_NUMBERS_INL_H_
@@ -22,7 +22,8 @@ namespace scotopic::HWY_NAMESPACE {
 template <typename T>
 using Tag = hn::CappedTag<T, 64 / sizeof(T)>;
 
-/// D: a Highway tag, or lanes::PairTag of one, for two vectors side by side. Constants: what constant() takes members of.
+/// D: a Highway tag, or lanes::PairTag of one, for two vectors side by side. Constants: what constant() takes
+/// members of.
 template <class D, class Constants = StageConstants<typename lanes::Types<D>::T>>
 class LaneNumbers {
  public:
@@ -67,7 +68,7 @@ class LaneNumbers {
                 octaves * number(T(is_float ? 0x1.0bfbe8p-15 : 0x1.cf79abc9e3b39p-40));
     V sum = number(T(1) / factorial(is_float ? 7 : 13));
     for (int k = is_float ? 6 : 12; k >= 0; --k) sum = sum * r + number(T(1) / factorial(k));
-    const auto exponent = hn::ShiftLeft<is_float ? 23 : 52>(hn::BitCast(di, shifted));
+    const auto exponent = hn::ShiftLeft < is_float ? 23 : 52 > (hn::BitCast(di, shifted));
     return hn::BitCast(d, hn::Add(hn::BitCast(di, sum), exponent));
   }
 
@@ -94,7 +95,8 @@ class LaneNumbers {
     constexpr I bias = sizeof(T) == 4 ? I(127) : I(1023);
     const auto bits = lanes::BitCast(di, x);
     const auto fraction = lanes::And(bits, lanes::Set(di, (I(1) << mantissa_bits) - 1));
-    V exponent = lanes::ConvertTo(d, lanes::Sub(lanes::ShiftRight<mantissa_bits>(bits), lanes::Set(di, bias)));
+    V exponent =
+        lanes::ConvertTo(d, lanes::Sub(lanes::ShiftRight<mantissa_bits>(bits), lanes::Set(di, bias)));
     V f = lanes::BitCast(d, lanes::Or(fraction, lanes::Set(di, bias << mantissa_bits)));
     const M upper = greater(f, number(T(std::numbers::sqrt2)));
     f = select(upper, f * number(T(0.5)), f);

@@ -1,5 +1,5 @@
-// Vector operations by name, on one vector or on two side by side. Two independent chains of operations keep a processor
-// busy where one waits for its own results. Compiled once per SIMD target.
+// Vector operations by name, on one vector or on two side by side. Two independent chains of operations keep
+// a processor busy where one waits for its own results. Compiled once per SIMD target.
 #if defined(SCOTOPIC_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SCOTOPIC_LANES_INL_H_
 #undef SCOTOPIC_LANES_INL_H_
@@ -67,10 +67,10 @@ SCOTOPIC_TWO(Le)
 SCOTOPIC_TWO(Gt)
 SCOTOPIC_TWO(Ge)
 SCOTOPIC_TWO(Ne)
-#define SCOTOPIC_OPERATOR(symbol, name)                                                \
-  template <class V>                                                                   \
-  HWY_INLINE Pair<V> operator symbol(const Pair<V>& x, const Pair<V>& y) {             \
-    return {hn::name(x.a, y.a), hn::name(x.b, y.b)};                                   \
+#define SCOTOPIC_OPERATOR(symbol, name)                                    \
+  template <class V>                                                       \
+  HWY_INLINE Pair<V> operator symbol(const Pair<V>& x, const Pair<V>& y) { \
+    return {hn::name(x.a, y.a), hn::name(x.b, y.b)};                       \
   }
 SCOTOPIC_OPERATOR(+, Add)
 SCOTOPIC_OPERATOR(-, Sub)

@@ -30,8 +30,8 @@ const T& first_number(const RodNoiseConstants<T>& k) {
   return k.weight.unit;
 }
 
-/// A constant is then an operand in memory, and takes no instruction of its own. (Too many for registers, they would be
-/// spread again for each use.) Constants: a struct of nothing but numbers of its type T.
+/// A constant is then an operand in memory, and takes no instruction of its own. (Too many for registers,
+/// they would be spread again for each use.) Constants: a struct of nothing but numbers of its type T.
 template <class Constants>
 class WideNumbers {
  public:
@@ -54,7 +54,8 @@ class WideNumbers {
 
   /// `number`, one of those in `numbers`, in every lane; aligned to 64 bytes.
   const T* of(const T& number) const noexcept {
-    const auto offset = reinterpret_cast<std::uintptr_t>(&number) - reinterpret_cast<std::uintptr_t>(&numbers);
+    const auto offset =
+        reinterpret_cast<std::uintptr_t>(&number) - reinterpret_cast<std::uintptr_t>(&numbers);
     return wide_.get() + offset / sizeof(T) * lanes;
   }
 
@@ -67,7 +68,8 @@ class WideNumbers {
 /// Those of the operator's pixel stages.
 template <typename T>
 struct WideConstants : WideNumbers<StageConstants<T>> {
-  explicit WideConstants(const OperatorConstants& c) : WideNumbers<StageConstants<T>>(StageConstants<T>(c)), on(c) {}
+  explicit WideConstants(const OperatorConstants& c)
+      : WideNumbers<StageConstants<T>>(StageConstants<T>(c)), on(c) {}
 
   const StageSwitches on;
 };

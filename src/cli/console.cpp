@@ -24,8 +24,8 @@ std::string one_line_json(const nlohmann::ordered_json& object) {
 }
 
 /// Bytes of the character that the text begins with; 0 where it is a control character or no UTF-8.
-/// U+061C, U+200B to U+200F, U+2028 to U+202E, U+2060 to U+206F, U+FEFF: breaks of lines, marks that turn the direction of
-/// writing, and what has no width. In a name they make it look like another.
+/// U+061C, U+200B to U+200F, U+2028 to U+202E, U+2060 to U+206F, U+FEFF: breaks of lines, marks that turn the
+/// direction of writing, and what has no width. In a name they make it look like another.
 bool steers_text(std::string_view c) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(c[i]); };
   if (c == "\u061c" || c == "\ufeff") return true;
@@ -145,9 +145,12 @@ std::string printable(const std::string& text) {
 }
 
 void Console::line(const std::string& text) const {
-  if (sink_) sink_(text);
-  else if (options_.json) errors().say(one_line_json({{"note", text}}));
-  else errors().say("scotopic: " + printable(text));
+  if (sink_)
+    sink_(text);
+  else if (options_.json)
+    errors().say(one_line_json({{"note", text}}));
+  else
+    errors().say("scotopic: " + printable(text));
 }
 
 void Console::note(const std::string& text) const {
@@ -181,8 +184,7 @@ int report(const Error& error, bool json) {
     errors().say(one_line_json(object));
   } else {
     const std::string file = error.file().empty() ? "" : printable(error.file()) + ": ";
-    errors().say(
-        "scotopic: " + file + printable(error.what()) + " (" + written_text(files_in_place()) + ")");
+    errors().say("scotopic: " + file + printable(error.what()) + " (" + written_text(files_in_place()) + ")");
   }
   return code;
 }
@@ -196,7 +198,8 @@ Error error_of(const std::exception_ptr& failure) {
     return Error(ExitCode::limit, "", "out of memory");
   } catch (const std::system_error& error) {
     // What a thread needs and does not get.
-    if (error.code() == std::errc::resource_unavailable_try_again || error.code() == std::errc::not_enough_memory)
+    if (error.code() == std::errc::resource_unavailable_try_again ||
+        error.code() == std::errc::not_enough_memory)
       return Error(ExitCode::limit, "", "out of memory or threads");
     return Error(ExitCode::internal, "", std::string("internal error: ") + error.what());
   } catch (const std::exception& error) {

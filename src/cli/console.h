@@ -24,8 +24,8 @@ struct CommonOptions {
   std::vector<std::string> typed;
 };
 
-/// A whole number in decimal digits alone: no sign, space, leading zero or prefix, which CLI11 takes for octal or
-/// hexadecimal.
+/// A whole number in decimal digits alone: no sign, space, leading zero or prefix, which CLI11 takes for
+/// octal or hexadecimal.
 CLI::Validator whole_number(std::int64_t least, std::int64_t greatest);
 
 void add_common_options(CLI::App& verb, CommonOptions& options);
@@ -41,7 +41,8 @@ using LineSink = std::function<void(const std::string& line)>;
 class Console {
  public:
   /// Notes go to `sink` where there is one.
-  explicit Console(const CommonOptions& options, LineSink sink = nullptr) : options_(options), sink_(std::move(sink)) {}
+  explicit Console(const CommonOptions& options, LineSink sink = nullptr)
+      : options_(options), sink_(std::move(sink)) {}
 
   /// What the user should know without asking; silenced by -q. With --json an object of its own.
   void note(const std::string& text) const;

@@ -29,7 +29,9 @@ void say_end(ExitCode code, const char* number, const char* what) {
   if (ends_in_json) write_all(number);
   if (ends_in_json) write_all(",\"file\":\"\",\"message\":\"");
   write_all(what);
-  write_all(ends_in_json ? "\"}}\n" : files_in_place() == 0 ? " (nothing written)\n" : " (files had been written)\n");
+  write_all(ends_in_json            ? "\"}}\n"
+            : files_in_place() == 0 ? " (nothing written)\n"
+                                    : " (files had been written)\n");
   _exit(static_cast<int>(code));
 }
 
@@ -54,18 +56,18 @@ extern "C" void end_on_exit() {
   if (running) end_by_library();
 }
 
-/// A standard stream that is closed would give its number to the next file opened. Reading in place of writing,
-/// so that what is written there still fails.
+/// A standard stream that is closed would give its number to the next file opened. Reading in place of
+/// writing, so that what is written there still fails.
 void open_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (fcntl(stream, F_GETFD) < 0)
-      (void)!open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+    if (fcntl(stream, F_GETFD) < 0) (void)!open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-/// Whether a library would load code, change results or print between our lines for this variable. Whole families:
-/// what is in them changes from one release of a library to the next.
+/// Whether a library would load code, change results or print between our lines for this variable. Whole
+/// families: what is in them changes from one release of a library to the next.
 bool steers_a_library(std::string_view name) {
-  for (const std::string_view family : {"CUE_", "EXPAT_", "GOMP_", "OIIO_", "OMP_", "OPENCV_", "OPENIMAGEIO_"})
+  for (const std::string_view family :
+       {"CUE_", "EXPAT_", "GOMP_", "OIIO_", "OMP_", "OPENCV_", "OPENIMAGEIO_"})
     if (name.starts_with(family)) return true;
   return name == "OCIO_LOGGING_LEVEL" || name == "OCIO_OPTIMIZATION_FLAGS";
 }

@@ -18,9 +18,11 @@ namespace {
 /// What people call an option elsewhere, or in papers.
 std::string other_name_of(const std::string& option, const std::vector<std::string>& known) {
   constexpr std::pair<std::string_view, std::string_view> names[] = {
-      {"--la", "--adaptation"},     {"--luminance-adaptation", "--adaptation"}, {"--white", "--white-luminance"},
-      {"--unit", "--white-luminance"}, {"--view", "--display"},                 {"--lut", "--look"},
-      {"--quality", "--precision"}, {"--in-colorspace", "--colorspace"},        {"--frame", "--frames"}};
+      {"--la", "--adaptation"},         {"--luminance-adaptation", "--adaptation"},
+      {"--white", "--white-luminance"}, {"--unit", "--white-luminance"},
+      {"--view", "--display"},          {"--lut", "--look"},
+      {"--quality", "--precision"},     {"--in-colorspace", "--colorspace"},
+      {"--frame", "--frames"}};
   for (const auto& [other, name] : names)
     if (option == other && std::find(known.begin(), known.end(), name) != known.end())
       return "; did you mean " + std::string(name) + "?";
@@ -63,7 +65,8 @@ void refuse_empty_values(const CLI::App& program) {
       // Of those that would take it for their default; the others say themselves what they take.
       if (option->get_positional() || option->get_name() == "--adaptation") continue;
       for (const std::string& value : option->results())
-        if (value.empty()) throw Error(ExitCode::usage, "", option->get_name() + ": '' is not a value: it is empty");
+        if (value.empty())
+          throw Error(ExitCode::usage, "", option->get_name() + ": '' is not a value: it is empty");
     }
 }
 
@@ -87,13 +90,14 @@ int run_verb(const Invocation& invocation, bool json) {
   }
 }
 
-/// The command line with "--acuity local" as "--acuity=local": the option may also stand alone, before a file's name.
-/// Last word first, as CLI11 wants a list.
+/// The command line with "--acuity local" as "--acuity=local": the option may also stand alone, before a
+/// file's name. Last word first, as CLI11 wants a list.
 std::vector<std::string> arguments_of(int argc, char** argv) {
   std::vector<std::string> out;
   for (int i = argc - 1; i > 0; --i) {
     const std::string_view word = argv[i];
-    if (std::string_view(argv[i - 1]) == "--acuity" && (word == "local" || word == "global" || word == "off")) {
+    if (std::string_view(argv[i - 1]) == "--acuity" &&
+        (word == "local" || word == "global" || word == "off")) {
       out.push_back("--acuity=" + std::string(word));
       --i;
     } else {

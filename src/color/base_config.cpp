@@ -118,7 +118,7 @@ void add_scene_spaces(OCIO::Config& config) {
                                                "sdr-video",
                                                "Scene light encoded with the curve of IEC 61966-2-1"});
   texture->setTransform(group_of(srgb_curve(OCIO::TRANSFORM_DIR_FORWARD, OCIO::NEGATIVE_LINEAR),
-                              matrix_transform(ap0_from("rec709"))),
+                                 matrix_transform(ap0_from("rec709"))),
                         OCIO::COLORSPACE_DIR_TO_REFERENCE);
   config.addColorSpace(texture);
 
@@ -149,7 +149,7 @@ void add_displays(OCIO::Config& config) {
       {"CIE-XYZ-D65", {"cie_xyz_d65"}, "Display", "display-linear", "CIE 1931 XYZ of the display, D65"}));
   const auto encoded_by_srgb = [](std::string_view gamut) {
     return group_of(matrix_transform(inverse(xyz_of(gamut))),
-                 srgb_curve(OCIO::TRANSFORM_DIR_INVERSE, OCIO::NEGATIVE_MIRROR));
+                    srgb_curve(OCIO::TRANSFORM_DIR_INVERSE, OCIO::NEGATIVE_MIRROR));
   };
   add_display(config,
               {"sRGB - Display",
@@ -158,14 +158,13 @@ void add_displays(OCIO::Config& config) {
                "sdr-video",
                "IEC 61966-2-1"},
               encoded_by_srgb("rec709"));
-  add_display(
-      config,
-      {"Display P3 - Display",
-       {"displayp3_display", "srgb_p3d65_display"},
-       "Display",
-       "sdr-video",
-       "P3, D65, curve of sRGB"},
-      encoded_by_srgb("p3"));
+  add_display(config,
+              {"Display P3 - Display",
+               {"displayp3_display", "srgb_p3d65_display"},
+               "Display",
+               "sdr-video",
+               "P3, D65, curve of sRGB"},
+              encoded_by_srgb("p3"));
   add_display(config,
               {"Rec.1886 Rec.709 - Display",
                {"rec1886_rec709_display", "g24_rec709_display"},
@@ -175,13 +174,14 @@ void add_displays(OCIO::Config& config) {
               group_of(matrix_transform(inverse(xyz_of("rec709"))), bt1886_curve()));
   OCIO::BuiltinTransformRcPtr pq = OCIO::BuiltinTransform::Create();
   pq->setStyle("DISPLAY - CIE-XYZ-D65_to_REC.2100-PQ");
-  add_display(config,
-              {"Rec.2100-PQ - Display",
-               {"rec2100_pq_display"},
-               "Display",
-               "hdr-video",
-               "ITU-R BT.2100, PQ; 1 of a display's light is 100 cd/m2, views are made for a peak of 1000 cd/m2"},
-              pq);
+  add_display(
+      config,
+      {"Rec.2100-PQ - Display",
+       {"rec2100_pq_display"},
+       "Display",
+       "hdr-video",
+       "ITU-R BT.2100, PQ; 1 of a display's light is 100 cd/m2, views are made for a peak of 1000 cd/m2"},
+      pq);
   OCIO::BuiltinTransformRcPtr hlg = OCIO::BuiltinTransform::Create();
   hlg->setStyle("DISPLAY - CIE-XYZ-D65_to_REC.2100-HLG-1000nit");
   add_display(config,

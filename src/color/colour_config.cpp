@@ -52,7 +52,8 @@ void silence_ocio() { OCIO::SetLoggingLevel(OCIO::LOGGING_LEVEL_NONE); }
 
 /// Of light that every space has; matrices and LUTs of NaN or infinities show there.
 bool keeps_finite(const OCIO::CPUProcessor& processor) {
-  for (const std::array<float, 3>& colour : {std::array{.18f, .18f, .18f}, {1.f, .5f, .25f}, {.25f, 1.f, .5f}}) {
+  for (const std::array<float, 3>& colour :
+       {std::array{.18f, .18f, .18f}, {1.f, .5f, .25f}, {.25f, 1.f, .5f}}) {
     std::array<float, 3> rgb = colour;
     processor.applyRGB(rgb.data());
     if (!std::isfinite(rgb[0] + rgb[1] + rgb[2])) return false;
@@ -130,7 +131,8 @@ OCIO::ConstCPUProcessorRcPtr ColourConfig::processor(const std::string& from, co
     require_usable_luts(way, file_);
     const OCIO::ConstCPUProcessorRcPtr out =
         way->getOptimizedCPUProcessor(OCIO::BIT_DEPTH_F32, OCIO::BIT_DEPTH_F32, optimisation);
-    if (!keeps_finite(*out)) fail("from colour space '" + from + "' to '" + to + "' colours are no numbers any more");
+    if (!keeps_finite(*out))
+      fail("from colour space '" + from + "' to '" + to + "' colours are no numbers any more");
     return out;
   } catch (const Error&) {
     throw;
@@ -213,7 +215,8 @@ std::string ColourConfig::resolve(const std::string& name) const {
 
 RuledSpace ColourConfig::space_by_rules(const std::string& file, bool integer) const {
   const std::string role = integer ? "default_byte" : "default_float";
-  if (config_->filepathOnlyMatchesDefaultRule(file.c_str()) && config_->hasRole(role.c_str()) && has_space(role))
+  if (config_->filepathOnlyMatchesDefaultRule(file.c_str()) && config_->hasRole(role.c_str()) &&
+      has_space(role))
     return {space(role), "the config's role " + role};
   const std::string rule_space = config_->getColorSpaceFromFilepath(file.c_str());
   if (has_space(rule_space)) return {space(rule_space), "the config's file rules"};
@@ -228,8 +231,9 @@ OCIO::ConstCPUProcessorRcPtr ColourConfig::processor(const DisplayView& to) cons
   check_lut_files(config_, both, limits_);
   try {
     const std::lock_guard lock(making_processors);
-    return config_->getProcessor(working_space_.c_str(), to.display.c_str(), to.view.c_str(),
-                                 OCIO::TRANSFORM_DIR_FORWARD)
+    return config_
+        ->getProcessor(working_space_.c_str(), to.display.c_str(), to.view.c_str(),
+                       OCIO::TRANSFORM_DIR_FORWARD)
         ->getOptimizedCPUProcessor(OCIO::BIT_DEPTH_F32, OCIO::BIT_DEPTH_F32, optimisation);
   } catch (const std::exception& e) {
     fail("no way to view '" + to.view + "' of display '" + to.display + "': " + one_line(e.what()));
@@ -240,7 +244,8 @@ bool ColourConfig::same(const ColourSpace& a, const ColourSpace& b) const {
   if (a.for_a_device() || b.for_a_device()) return false;
   if (a.embedded || b.embedded) return a.embedded == b.embedded;
   if (!a.curve.linear() || !b.curve.linear())
-    return a.curve == b.curve && a.xyz_from_rgb && b.xyz_from_rgb && a.xyz_from_rgb->rows == b.xyz_from_rgb->rows;
+    return a.curve == b.curve && a.xyz_from_rgb && b.xyz_from_rgb &&
+           a.xyz_from_rgb->rows == b.xyz_from_rgb->rows;
   if (a.name == b.name && !a.xyz_from_rgb && !b.xyz_from_rgb) return true;
   if (a.xyz_from_rgb && b.xyz_from_rgb && a.xyz_from_rgb->rows == b.xyz_from_rgb->rows) return true;
   if (!a.xyz_from_rgb && !b.xyz_from_rgb) return processor(a.name, b.name)->isNoOp();
@@ -277,7 +282,8 @@ std::optional<ColourConfig::Encoding> ColourConfig::encoding(const ColourSpace& 
   Encoding out;
   const Matrix3<double> xyz = xyz_from_working_ * working;
   out.white = xyz[1][0] + xyz[1][1] + xyz[1][2];
-  if (!(out.white > 1e-6) || !std::isfinite(out.white) || !(std::abs(determinant(xyz)) > 0)) return std::nullopt;
+  if (!(out.white > 1e-6) || !std::isfinite(out.white) || !(std::abs(determinant(xyz)) > 0))
+    return std::nullopt;
   out.xyz_from_rgb = (1 / out.white) * xyz;
   // In float, the last digits of such a matrix are OpenColorIO's: those of a known space are exact.
   if (const NamedPrimaries* known = match_matrix(out.xyz_from_rgb))
@@ -295,7 +301,8 @@ std::optional<Matrix3<double>> ColourConfig::linear_xyz(const ColourSpace& space
 RowConverter ColourConfig::to_working(const ColourSpace& from) const {
   if (from.embedded) return RowConverter(from.embedded, inverse(xyz_from_working_), true);
   if (!from.xyz_from_rgb) return RowConverter(processor(from.name, working_space_));
-  if (!from.curve.linear()) return RowConverter(from.curve, inverse(xyz_from_working_) * *from.xyz_from_rgb, true);
+  if (!from.curve.linear())
+    return RowConverter(from.curve, inverse(xyz_from_working_) * *from.xyz_from_rgb, true);
   const NamedPrimaries* known = match_matrix(*from.xyz_from_rgb);
   if (known && known->name == working_gamut_) return RowConverter();
   return RowConverter(inverse(xyz_from_working_) * *from.xyz_from_rgb);

@@ -25,16 +25,17 @@ struct DisplayView {
 
 class EmbeddedProfile;
 
-/// An RGB space: one of the config's; light with the primaries and the curve that a file states, or as the profile that
-/// it embeds has it; what a display is sent under one of the config's views; or the values of a device that an ICC
-/// profile describes. Where `name` is not the config's it is only for the reader.
+/// An RGB space: one of the config's; light with the primaries and the curve that a file states, or as the
+/// profile that it embeds has it; what a display is sent under one of the config's views; or the values of a
+/// device that an ICC profile describes. Where `name` is not the config's it is only for the reader.
 struct ColourSpace {
   std::string name;
-  std::optional<Matrix3<double>> xyz_from_rgb = std::nullopt;  ///< of light with stated primaries, after `curve`
-  std::optional<DisplayView> view = std::nullopt;              ///< results only
-  std::shared_ptr<const IccProfile> profile = nullptr;         ///< results only
-  TransferCurve curve = {};                                    ///< with xyz_from_rgb only
-  std::shared_ptr<const EmbeddedProfile> embedded = nullptr;   ///< of the file
+  std::optional<Matrix3<double>> xyz_from_rgb =
+      std::nullopt;                                     ///< of light with stated primaries, after `curve`
+  std::optional<DisplayView> view = std::nullopt;       ///< results only
+  std::shared_ptr<const IccProfile> profile = nullptr;  ///< results only
+  TransferCurve curve = {};                             ///< with xyz_from_rgb only
+  std::shared_ptr<const EmbeddedProfile> embedded = nullptr;  ///< of the file
 
   /// Values are for a device, no longer light.
   bool for_a_device() const noexcept { return view || profile; }
@@ -83,14 +84,15 @@ struct RuledSpace {
 class ColourConfig {
  public:
   /// `file` if not empty, else the file $OCIO names, else the project's own config.
-  /// Configs and LUTs larger than `limits` are Error(limit). `working`: CIE XYZ (D65) from RGB of role scene_linear, for
-  /// configs whose roles do not say it; where they say another thing, Error(config).
+  /// Configs and LUTs larger than `limits` are Error(limit). `working`: CIE XYZ (D65) from RGB of role
+  /// scene_linear, for configs whose roles do not say it; where they say another thing, Error(config).
   static ColourConfig in_force(const std::string& file, const Limits& limits = {},
                                const std::optional<Matrix3<double>>& working = std::nullopt);
   /// The project's own config.
   static ColourConfig own();
-  /// This config; or, where it is the project's own and `view` is none of it, the one that is shipped with all looks and
-  /// views - the same spaces -, where that is found beside the program or where it was installed.
+  /// This config; or, where it is the project's own and `view` is none of it, the one that is shipped with
+  /// all looks and views - the same spaces -, where that is found beside the program or where it was
+  /// installed.
   ColourConfig holding(const std::string& view) const;
   /// Read from a file.
   static ColourConfig from_file(const std::string& file, const Limits& limits = {},
@@ -114,17 +116,19 @@ class ColourConfig {
   std::string resolve(const std::string& name) const;
   /// The space by name, role or alias; else an error as of resolve().
   ColourSpace space(const std::string& name) const { return {resolve(name)}; }
-  /// What a display is sent under a view: VIEW of the config's default display, or DISPLAY/VIEW. For a name that does not
-  /// exist, an error that lists close ones.
+  /// What a display is sent under a view: VIEW of the config's default display, or DISPLAY/VIEW. For a name
+  /// that does not exist, an error that lists close ones.
   ColourSpace view(const std::string& name) const;
   /// The looks that a view applies by itself; empty where it has none.
   std::string looks_of(const DisplayView& view) const;
   /// Whether there is a space, role or alias of that name.
   bool has_space(const std::string& name) const;
-  /// What the config's rules say of a file. Of pixels that only the default rule matches its roles say more, where
-  /// there are such: default_byte of `integer` ones, default_float of others.
+  /// What the config's rules say of a file. Of pixels that only the default rule matches its roles say more,
+  /// where there are such: default_byte of `integer` ones, default_float of others.
   RuledSpace space_by_rules(const std::string& file, bool integer) const;
-  ColourSpace space_of_file(const std::string& file, bool integer) const { return space_by_rules(file, integer).space; }
+  ColourSpace space_of_file(const std::string& file, bool integer) const {
+    return space_by_rules(file, integer).space;
+  }
   /// Every space, role and alias.
   std::vector<std::string> names() const;
   /// Whether pixels of both spaces mean the same.

@@ -43,7 +43,8 @@ class Walk {
       way(looks->getSrc(), looks->getDst(), direction);
       looks_in(looks->getLooks());
     } else if (const auto view = OCIO::DynamicPtrCast<const OCIO::DisplayViewTransform>(step)) {
-      way(view->getSrc(), config_->getDisplayViewColorSpaceName(view->getDisplay(), view->getView()), direction);
+      way(view->getSrc(), config_->getDisplayViewColorSpaceName(view->getDisplay(), view->getView()),
+          direction);
       looks_in(config_->getDisplayViewLooks(view->getDisplay(), view->getView()));
     }
   }
@@ -71,7 +72,8 @@ class Walk {
     const bool to = direction == OCIO::COLORSPACE_DIR_TO_REFERENCE;
     once(found->getName(), std::string(to ? "to " : "from ") + found->getName(), [&] {
       const auto other = to ? OCIO::COLORSPACE_DIR_FROM_REFERENCE : OCIO::COLORSPACE_DIR_TO_REFERENCE;
-      // Of the two transforms a space may have, the other one's inverse stands in for the one that is missing.
+      // Of the two transforms a space may have, the other one's inverse stands in for the one that is
+      // missing.
       if (const auto own = found->getTransform(direction))
         transform(own, forward);
       else

@@ -47,8 +47,10 @@ const std::vector<NamedPrimaries>& known_primaries() {
 
 bool are_usable(const Primaries& p) {
   const auto finite = [](Xy c) { return std::abs(c.x) <= 10 && std::abs(c.y) <= 10; };
-  if (!finite(p.red) || !finite(p.green) || !finite(p.blue) || !finite(p.white) || !(p.white.y > 1e-3)) return false;
-  const double area = (p.green.x - p.red.x) * (p.blue.y - p.red.y) - (p.blue.x - p.red.x) * (p.green.y - p.red.y);
+  if (!finite(p.red) || !finite(p.green) || !finite(p.blue) || !finite(p.white) || !(p.white.y > 1e-3))
+    return false;
+  const double area =
+      (p.green.x - p.red.x) * (p.blue.y - p.red.y) - (p.blue.x - p.red.x) * (p.green.y - p.red.y);
   if (!(std::abs(area) > 1e-4)) return false;
   const Matrix3<double> m = xyz_d65_from_rgb(p);
   return std::abs(determinant(m)) > 1e-6 && std::isfinite(determinant(m));
@@ -69,8 +71,7 @@ Matrix3<double> bradford(Xy from, Xy to) {
 }
 
 Matrix3<double> cat02(Xy from, Xy to) {
-  constexpr Matrix3<double> cone{
-      {{{.7328, .4296, -.1624}, {-.7036, 1.6975, .0061}, {.0030, .0136, .9834}}}};
+  constexpr Matrix3<double> cone{{{{.7328, .4296, -.1624}, {-.7036, 1.6975, .0061}, {.0030, .0136, .9834}}}};
   return adapted(cone, from, to);
 }
 
@@ -108,7 +109,9 @@ const NamedPrimaries* match_primaries(const Primaries& p) {
   return nullptr;
 }
 
-bool same_matrix(const Matrix3<double>& a, const Matrix3<double>& b) { return largest_difference(a, b) <= matrix_tolerance; }
+bool same_matrix(const Matrix3<double>& a, const Matrix3<double>& b) {
+  return largest_difference(a, b) <= matrix_tolerance;
+}
 
 const NamedPrimaries* match_matrix(const Matrix3<double>& m) {
   for (const NamedPrimaries& set : known_primaries())

@@ -55,7 +55,8 @@ Matrix3<double> xyz_d65_from_rgb(const Primaries& primaries);
 /// XYZ (D65) from the linear RGB of "rec709", "rec2020", "p3", "ap1" or "ap0"; nullopt for another name.
 std::optional<Matrix3<double>> gamut_xyz_matrix(std::string_view name);
 
-/// Chromaticities by which OpenEXR says that R, G, B are CIE X, Y, Z themselves: (1,0), (0,1), (0,0), white (1/3,1/3).
+/// Chromaticities by which OpenEXR says that R, G, B are CIE X, Y, Z themselves: (1,0), (0,1), (0,0), white
+/// (1/3,1/3).
 const Primaries& cie_xyz_primaries();
 /// Whether they are those, each to 1e-3.
 bool are_cie_xyz(const Primaries& primaries);

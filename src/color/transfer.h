@@ -33,9 +33,10 @@ struct TransferCurve {
   bool absolute() const noexcept { return kind == Transfer::pq || kind == Transfer::hlg; }
   bool operator==(const TransferCurve&) const = default;
 
-  /// Linear light of an encoded pixel, 1 being (reference) white; encode() is its inverse, to 1e-12 relative within
-  /// 0..1 of the encoding. Beyond 0 as the Color Interop Forum has it: power functions let negative values pass, sRGB
-  /// goes on with its slope at 0; PQ and HLG have none and give 0. Through the channels of HLG runs one system gamma.
+  /// Linear light of an encoded pixel, 1 being (reference) white; encode() is its inverse, to 1e-12 relative
+  /// within 0..1 of the encoding. Beyond 0 as the Color Interop Forum has it: power functions let negative
+  /// values pass, sRGB goes on with its slope at 0; PQ and HLG have none and give 0. Through the channels of
+  /// HLG runs one system gamma.
   Vec3<double> decode(const Vec3<double>& encoded) const;
   Vec3<double> encode(const Vec3<double>& light) const;
 };

@@ -21,10 +21,14 @@ struct Range {
 };
 
 // Of what is no stage's: 0 stands for what is not given where the option has no default.
-constexpr std::array ranges = {Range{"white_luminance", 0, 1e9, 0}, Range{"safko_scale", 0, 1e9, 0},
-                               Range{"strength", 0, 1, 1},          Range{"ppd", 0, 1e5, 0},
-                               Range{"fov", 0, 179, 0},             Range{"contrast", 1, 1e6, 5},
-                               Range{"night_range", 0, 1, 0.35},    Range{"night_exponent", 0.01, 100, 1},
+constexpr std::array ranges = {Range{"white_luminance", 0, 1e9, 0},
+                               Range{"safko_scale", 0, 1e9, 0},
+                               Range{"strength", 0, 1, 1},
+                               Range{"ppd", 0, 1e5, 0},
+                               Range{"fov", 0, 179, 0},
+                               Range{"contrast", 1, 1e6, 5},
+                               Range{"night_range", 0, 1, 0.35},
+                               Range{"night_exponent", 0.01, 100, 1},
                                Range{"exposure", -64, 64, 0}};
 
 struct Words {
@@ -45,9 +49,9 @@ const std::vector<Words>& word_lists() {
   return lists;
 }
 
-const std::set<std::string_view> left_out = {"adaptation",   "effects",         "acuity",       "config",
-                                             "max_memory",   "max_config_size", "max_lut_size", "max_error",
-                                             "budget",       "working_primaries"};
+const std::set<std::string_view> left_out = {"adaptation", "effects",          "acuity",       "config",
+                                             "max_memory", "max_config_size",  "max_lut_size", "max_error",
+                                             "budget",     "working_primaries"};
 
 std::string with_underscores(std::string_view name) {
   std::string out(name);

@@ -1,5 +1,5 @@
-// The parameters as controls of a host's panel: sliders, menus, texts. Ranges are those of the stages' own descriptions; of
-// the others they are listed here.
+// The parameters as controls of a host's panel: sliders, menus, texts. Ranges are those of the stages' own
+// descriptions; of the others they are listed here.
 #pragma once
 
 #include <string>
@@ -18,8 +18,8 @@ struct Control {
   std::vector<std::string> words;
 };
 
-/// All but adaptation and effects, which hosts show in ways of their own, and what no panel should have (config,
-/// limits, older names).
+/// All but adaptation and effects, which hosts show in ways of their own, and what no panel should have
+/// (config, limits, older names).
 const std::vector<Control>& controls();
 
 /// The text of a number, as parameters take it: the shortest that is read as the same.

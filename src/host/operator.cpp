@@ -71,7 +71,8 @@ ImageReport HostOperator::apply(const MemoryJob& job, const Notes& notes) const 
 }
 
 nlohmann::ordered_json HostOperator::explain(const MemoryJob& job, const Notes& notes) const {
-  return explain_json(job.header.name, read_scene(job, measuring(settings_), Statistics::of_all_pixels, notes));
+  return explain_json(job.header.name,
+                      read_scene(job, measuring(settings_), Statistics::of_all_pixels, notes));
 }
 
 SceneReport HostOperator::plan(const MemoryJob& job, const Notes& notes) const {

@@ -24,7 +24,8 @@ int take_number(std::string_view& rest, const std::string& text) {
   int value = 0;
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
   const auto length = static_cast<std::size_t>(end - rest.data());
-  if (error == std::errc::result_out_of_range || length > most_digits + 1) fail(text, "has a number of too many digits");
+  if (error == std::errc::result_out_of_range || length > most_digits + 1)
+    fail(text, "has a number of too many digits");
   if (error != std::errc()) fail(text, takes);
   rest.remove_prefix(length);
   return value;
@@ -106,10 +107,13 @@ std::vector<FramePattern::Place> FramePattern::places_in(const std::string& path
 
 bool FramePattern::in(const std::string& path) { return !places_in(path).empty(); }
 
-FramePattern::FramePattern(const std::string& path, const std::string& what) : text_(path), places_(places_in(path)) {
+FramePattern::FramePattern(const std::string& path, const std::string& what)
+    : text_(path), places_(places_in(path)) {
   if (places_.empty())
     throw Error(ExitCode::usage, path,
-                what + " has no place for the frame's number in its name, like ####, @@@@ or %04d, which --frames needs");
+                what +
+                    " has no place for the frame's number in its name, like ####, @@@@ or %04d, which "
+                    "--frames needs");
 }
 
 std::string FramePattern::path(int frame) const {

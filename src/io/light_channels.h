@@ -9,10 +9,10 @@
 
 namespace scotopic {
 
-/// Whether a layer or part of that name holds data, not light: identifiers, normals, depth, positions, motion, as the
-/// renderers call them (Cryptomatte; Blender's IndexOB, Vector, Mist; Arnold's N, P, Z, motionvector, crypto_object;
-/// RenderMan's Nn, Pworld, id; V-Ray's VRayVelocity, VRayNormals, VRayRenderID). A word of the name decides; single
-/// letters only where they are all of it.
+/// Whether a layer or part of that name holds data, not light: identifiers, normals, depth, positions,
+/// motion, as the renderers call them (Cryptomatte; Blender's IndexOB, Vector, Mist; Arnold's N, P, Z,
+/// motionvector, crypto_object; RenderMan's Nn, Pworld, id; V-Ray's VRayVelocity, VRayNormals, VRayRenderID).
+/// A word of the name decides; single letters only where they are all of it.
 bool is_data_name(std::string_view name);
 
 /// Whether it is the picture itself among passes: beauty, Combined, rgba, Ci, ...
@@ -21,10 +21,10 @@ bool is_beauty_name(std::string_view name);
 /// Whether a channel has a wavelength or the number of a band in its name.
 bool looks_spectral(std::string_view channel);
 
-/// Where the light of a picture is. `layer`: a channel prefix to look under ("" chooses by itself: topmost R, G, B (or
-/// red, green, blue; or X, Y, Z); else the only layer that has them and is no data; else the one of several with the
-/// name of a beauty; else L, M, S, R; else a single Y, topmost or the only layer's). Channels of type uint are none.
-/// Several candidates are an Error(usage).
+/// Where the light of a picture is. `layer`: a channel prefix to look under ("" chooses by itself: topmost R,
+/// G, B (or red, green, blue; or X, Y, Z); else the only layer that has them and is no data; else the one of
+/// several with the name of a beauty; else L, M, S, R; else a single Y, topmost or the only layer's).
+/// Channels of type uint are none. Several candidates are an Error(usage).
 ColourChannels find_colour(const Picture& picture, const std::string& layer, const std::string& file);
 
 /// All layers of a picture that have R, G, B, or L, M, S, R, or Y; "" is the topmost.

@@ -36,7 +36,8 @@ std::string format_of(const std::string& file) {
   if (!stream) throw Error(ExitCode::input, file, std::string("cannot be read: ") + std::strerror(errno));
   std::array<char, 16> start{};
   stream.read(start.data(), start.size());
-  if (stream.bad()) throw Error(ExitCode::input, file, std::string("cannot be read: ") + std::strerror(errno));
+  if (stream.bad())
+    throw Error(ExitCode::input, file, std::string("cannot be read: ") + std::strerror(errno));
   const std::string_view head(start.data(), static_cast<std::size_t>(stream.gcount()));
   for (const Magic& magic : magics)
     if (head.substr(0, magic.bytes.size()) == magic.bytes) return magic.format;

@@ -43,9 +43,9 @@ struct ColourChannels {
   Kind kind = Kind::none;
   std::array<std::size_t, 4> index{};
   std::optional<std::size_t> alpha;
-  std::string layer;  ///< prefix of the channels' names; empty for the topmost
+  std::string layer;      ///< prefix of the channels' names; empty for the topmost
   bool straight = false;  ///< alpha is not multiplied into them
-  bool xyz = false;   ///< of Kind::rgb: they are CIE X, Y, Z
+  bool xyz = false;       ///< of Kind::rgb: they are CIE X, Y, Z
 
   /// How many of `index` count.
   std::size_t count() const {
@@ -90,7 +90,7 @@ struct Picture {
   std::optional<double> white_luminance;  ///< attribute whiteLuminance, cd/m2
   /// What reading it changes or leaves out, one sentence each.
   std::vector<std::string> notes;
-  std::optional<double> lmsr_unit;        ///< attribute scotopic:lmsrUnit, cd/m2 (docs: image/apply_image.h)
+  std::optional<double> lmsr_unit;  ///< attribute scotopic:lmsrUnit, cd/m2 (docs: image/apply_image.h)
 };
 
 /// A pixel's aspect as a header states it; 1 for what is none, or beyond 0.1 to 10.

@@ -10,9 +10,9 @@
 namespace scotopic {
 
 std::string output_format(const std::string& path) {
-  static const std::map<std::string, std::string> formats = {
-      {".exr", "openexr"}, {".tif", "tiff"}, {".tiff", "tiff"}, {".png", "png"},
-      {".jpg", "jpeg"},    {".jpeg", "jpeg"}};
+  static const std::map<std::string, std::string> formats = {{".exr", "openexr"}, {".tif", "tiff"},
+                                                             {".tiff", "tiff"},   {".png", "png"},
+                                                             {".jpg", "jpeg"},    {".jpeg", "jpeg"}};
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });

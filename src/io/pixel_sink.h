@@ -48,7 +48,8 @@ std::string output_format(const std::string& path);
 const std::vector<PixelType>& pixel_types_of(const std::string& format);
 
 /// OpenEXR: header, tiles, order of lines and compression of the source (ZIP in place of a lossy one).
-/// `source` and `file` must outlive the sink. TIFF: one page for each picture; PNG and JPEG: exactly one picture.
+/// `source` and `file` must outlive the sink. TIFF: one page for each picture; PNG and JPEG: exactly one
+/// picture.
 std::unique_ptr<PixelSink> open_sink(const std::string& format, OutputFile& file, PixelSource& source,
                                      const std::vector<OutputPicture>& pictures);
 

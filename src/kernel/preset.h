@@ -26,8 +26,8 @@ inline constexpr Matrix3<double> opponent_from_lms{{{{-1, 1, 0}, {-1, -1, 1}, {1
 namespace detail {
 
 constexpr KernelPreset make_kirk2011() {
-  // Kirk & O'Brien 2011, section 3, with the fits of Cao et al. 2008: rod input strength kappa, cone maxima m,
-  // relative contributions rho and alpha, and the scalings x, y, z that they fitted to hue-matching data.
+  // Kirk & O'Brien 2011, section 3, with the fits of Cao et al. 2008: rod input strength kappa, cone maxima
+  // m, relative contributions rho and alpha, and the scalings x, y, z that they fitted to hue-matching data.
   constexpr double kappa1 = 0.25, kappa2 = 0.40;
   constexpr double l = 0.637, m = 0.392, s = 1.606;
   constexpr double rho1 = 1.111, rho2 = 0.939, rho3 = 0.400, rho4 = 0.150, alpha = 0.619;
@@ -46,9 +46,10 @@ constexpr KernelPreset make_filament2021() {
   constexpr double big_k = 45, big_s = 10, k3 = 0.6, rw = 0.139, p = 0.6189;
   constexpr Matrix3<double> pathways{
       {{{-(k3 + rw), 1 + k3 * rw, 0}, {p * k3, (1 - p) * k3, 1}, {p * big_s, (1 - p) * big_s, 0}}}};
-  return {kappa,
-          {0.33 / m[0], 0.33 / m[1], 0.33 / m[2]},
-          (big_k / big_s) * (pathways * diagonal<double>({kappa[0] / m[0], kappa[1] / m[1], kappa[2] / m[2]}))};
+  return {
+      kappa,
+      {0.33 / m[0], 0.33 / m[1], 0.33 / m[2]},
+      (big_k / big_s) * (pathways * diagonal<double>({kappa[0] / m[0], kappa[1] / m[1], kappa[2] / m[2]}))};
 }
 
 }  // namespace detail
@@ -56,7 +57,8 @@ constexpr KernelPreset make_filament2021() {
 /// filament2021: kernel units per cd/m2; 380 x 52.3313, the spot-meter anchor of its author.
 inline constexpr double filament2021_scale = 19885.9;
 
-/// Constants of a model. safko2019 has those of kirk2011: what differs is the scale, and all around the kernel.
+/// Constants of a model. safko2019 has those of kirk2011: what differs is the scale, and all around the
+/// kernel.
 constexpr KernelPreset kernel_preset(Model model) {
   return model == Model::filament2021 ? detail::make_filament2021() : detail::make_kirk2011();
 }

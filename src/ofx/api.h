@@ -1,14 +1,14 @@
-// The part of the OpenFX Image Effect API (1.4) that is used here: names of properties, actions and types, and the layout
-// of the structures that host and plug-in share, as the API's specification has them. Plain C data: what crosses the
-// border may be from any compiler.
+// The part of the OpenFX Image Effect API (1.4) that is used here: names of properties, actions and types,
+// and the layout of the structures that host and plug-in share, as the API's specification has them. Plain C
+// data: what crosses the border may be from any compiler.
 #pragma once
 
 namespace scotopic::ofx {
 
 using Status = int;
-inline constexpr Status ok = 0, failed = 1, fatal = 2, unknown = 3, missing_feature = 4, unsupported = 5, exists = 6,
-                        bad_handle = 9, bad_index = 10, bad_value = 11, reply_yes = 12, reply_no = 13,
-                        reply_default = 14, image_format = 1000;
+inline constexpr Status ok = 0, failed = 1, fatal = 2, unknown = 3, missing_feature = 4, unsupported = 5,
+                        exists = 6, bad_handle = 9, bad_index = 10, bad_value = 11, reply_yes = 12,
+                        reply_no = 13, reply_default = 14, image_format = 1000;
 
 struct PropertySetStruct;
 struct ImageEffectStruct;
@@ -118,8 +118,8 @@ struct MessageSuite {
 inline constexpr const char* message_error = "OfxMessageError";
 
 namespace action {
-inline constexpr const char *load = "OfxActionLoad", *unload = "OfxActionUnload", *describe = "OfxActionDescribe",
-                            *create_instance = "OfxActionCreateInstance",
+inline constexpr const char *load = "OfxActionLoad", *unload = "OfxActionUnload",
+                            *describe = "OfxActionDescribe", *create_instance = "OfxActionCreateInstance",
                             *destroy_instance = "OfxActionDestroyInstance",
                             *describe_in_context = "OfxImageEffectActionDescribeInContext",
                             *render = "OfxImageEffectActionRender",
@@ -128,7 +128,8 @@ inline constexpr const char *load = "OfxActionLoad", *unload = "OfxActionUnload"
 }  // namespace action
 
 namespace context {
-inline constexpr const char *filter = "OfxImageEffectContextFilter", *general = "OfxImageEffectContextGeneral";
+inline constexpr const char *filter = "OfxImageEffectContextFilter",
+                            *general = "OfxImageEffectContextGeneral";
 }
 
 namespace type {
@@ -177,8 +178,8 @@ inline constexpr const char *hint = "OfxParamPropHint", *parent = "OfxParamPropP
                             *initial = "OfxParamPropDefault", *least = "OfxParamPropMin",
                             *greatest = "OfxParamPropMax", *display_least = "OfxParamPropDisplayMin",
                             *display_greatest = "OfxParamPropDisplayMax",
-                            *choice_option = "OfxParamPropChoiceOption",
-                            *animates = "OfxParamPropAnimates", *group_open = "OfxParamPropGroupOpen";
+                            *choice_option = "OfxParamPropChoiceOption", *animates = "OfxParamPropAnimates",
+                            *group_open = "OfxParamPropGroupOpen";
 }  // namespace property
 
 // Values of those.

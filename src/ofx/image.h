@@ -1,4 +1,5 @@
-// An image of a host, for as long as it is needed, as pixels in memory. Hosts count rows from below, the pipeline from above.
+// An image of a host, for as long as it is needed, as pixels in memory. Hosts count rows from below, the
+// pipeline from above.
 #pragma once
 
 #include "ofx/api.h"

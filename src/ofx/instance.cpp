@@ -46,8 +46,9 @@ Instance::Instance(ImageEffect effect)
         (void)suites().effect->get_param_set(effect, &set);
         return set;
       }()) {
-  const bool clips = suites().effect->clip_get_handle(effect, source_clip, &source_, &source_properties_) == ok &&
-                     suites().effect->clip_get_handle(effect, output_clip, &output_, nullptr) == ok;
+  const bool clips =
+      suites().effect->clip_get_handle(effect, source_clip, &source_, &source_properties_) == ok &&
+      suites().effect->clip_get_handle(effect, output_clip, &output_, nullptr) == ok;
   if (!clips) throw Error(ExitCode::internal, "", "the host has no clips Source and Output");
 }
 
@@ -130,7 +131,8 @@ std::optional<RectD> Instance::source_region(const Moment& moment) {
   std::byte none[16] = {};
   job.in = {none, 1, 1, 4, 16, 16, 4, SampleType::float32};
   job.header.data = {0, 0, 1, 1};
-  job.header.display = {0, 0, pixels((all.x2 - all.x1) * moment.scale_x), pixels((all.y2 - all.y1) * moment.scale_y)};
+  job.header.display = {0, 0, pixels((all.x2 - all.x1) * moment.scale_x),
+                        pixels((all.y2 - all.y1) * moment.scale_y)};
   if (!operator_for(panel.parameters)->looks_around(job)) return std::nullopt;
   return all;
 }

@@ -55,9 +55,7 @@ const std::vector<std::string>& spaces() {
 }
 
 /// The slider's end: luminances and the like go further only when typed.
-double shown_greatest(const Control& c) {
-  return c.high <= 1000 ? c.high : std::max(100.0, 10 * c.initial);
-}
+double shown_greatest(const Control& c) { return c.high <= 1000 ? c.high : std::max(100.0, 10 * c.initial); }
 
 class Definer {
  public:
@@ -119,8 +117,9 @@ std::vector<std::string> scene_words() {
 
 void define_adaptation(Definer& d) {
   d.begin_group(first_group);
-  d.choice(scene, "Scene", "What the eye is adapted to: the slider, the picture's own log-average, or a scene",
-           scene_words(), 0);
+  d.choice(scene, "Scene",
+           "What the eye is adapted to: the slider, the picture's own log-average, or a scene", scene_words(),
+           0);
   d.number(log_adaptation, "Log10 adaptation luminance",
            "Luminance the eye is adapted to, as power of ten of cd/m2: -2 is 0.01, a full moon", darkest,
            brightest, brightest, usual);

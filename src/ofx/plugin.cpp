@@ -1,5 +1,5 @@
-// Scotopic.ofx: what a host loads. Every action ends here, with a status and where it failed a message; no exception
-// passes.
+// Scotopic.ofx: what a host loads. Every action ends here, with a status and where it failed a message; no
+// exception passes.
 #include <cstring>
 #include <exception>
 #include <optional>
@@ -15,12 +15,11 @@ namespace {
 
 constexpr const char* identifier = "org.scotopic.Scotopic";
 constexpr const char* description =
-    "Shows images as the dark-adapted eye sees them: rods, cones, and the way between. Linear light in; La is "
+    "Shows images as the dark-adapted eye sees them: rods, cones, and the way between. Linear light in; La "
+    "is "
     "what the eye is adapted to.";
 
-ImageEffect effect_of(const void* handle) {
-  return static_cast<ImageEffect>(const_cast<void*>(handle));
-}
+ImageEffect effect_of(const void* handle) { return static_cast<ImageEffect>(const_cast<void*>(handle)); }
 
 Properties properties_of(ImageEffect effect) {
   PropertySet set = nullptr;

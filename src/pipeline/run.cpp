@@ -251,8 +251,8 @@ class ImageRun {
     tone_ = tone_stage(settings_.display, parameters, *image.source, image.layout, settings_.config, stages_,
                        notes_);
     if (tone_.filter) stages_.filters.push_back(tone_.filter.get());
-    night_ = night_stage(settings_.choice.stages, parameters, report_.evaluator->precision(), image.source->file(),
-                         image.layout, notes_);
+    night_ = night_stage(settings_.choice.stages, parameters, report_.evaluator->precision(),
+                         image.source->file(), image.layout, notes_);
     if (night_.rows) stages_.after.push_back(night_.rows.get());
     add_stamps(tone_.stamps);
     add_stamps(night_.stamps);

@@ -29,8 +29,8 @@ struct TrackedAdaptation {
 struct ImageJob {
   std::string input;
   std::string output;
-  std::string provenance;  ///< stamped on the output where not empty
-  Moment moment;  ///< its seconds follow from the frame
+  std::string provenance;                       ///< stamped on the output where not empty
+  Moment moment;                                ///< its seconds follow from the frame
   std::optional<TrackedAdaptation> adaptation;  ///< in place of the settings'
   Progress progress;                            ///< of its rows
 };

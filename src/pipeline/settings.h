@@ -61,7 +61,8 @@ struct TimeChoice {
   std::vector<AdaptationPeriod> history;  ///< before frame 0; empty: ever in the scene's own light
 };
 
-/// What a display is sent by the tone map; the display stage is one of the table. The scene's numbers are not set yet.
+/// What a display is sent by the tone map; the display stage is one of the table. The scene's numbers are not
+/// set yet.
 struct DisplayChoice {
   bool tone = false;                  ///< the local tone map runs
   DisplayParameters parameters;       ///< of the tone map

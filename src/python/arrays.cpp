@@ -15,7 +15,8 @@ SampleType type_of(const py::array& array) {
     if (type.itemsize() == 4) return SampleType::float32;
     if (type.itemsize() == 8) return SampleType::float64;
   }
-  throw py::type_error("rgb must be of float16, float32 or float64, not " + std::string(py::str(static_cast<const py::object&>(type))));
+  throw py::type_error("rgb must be of float16, float32 or float64, not " +
+                       std::string(py::str(static_cast<const py::object&>(type))));
 }
 
 int side(py::ssize_t length) {

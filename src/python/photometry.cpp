@@ -49,8 +49,8 @@ py::array_t<double> weigh(const Doubles& spectrum, const std::vector<double>& wa
   const auto bands = static_cast<py::ssize_t>(wavelengths.size());
   if (spectrum.ndim() < 1 || spectrum.shape(spectrum.ndim() - 1) != bands)
     throw py::value_error("the last axis of spectrum must be as long as wavelengths");
-  const bool ascend = std::adjacent_find(wavelengths.begin(), wavelengths.end(), std::greater_equal<>()) ==
-                      wavelengths.end();
+  const bool ascend =
+      std::adjacent_find(wavelengths.begin(), wavelengths.end(), std::greater_equal<>()) == wavelengths.end();
   if (bands < 2 || !ascend || !(wavelengths.front() > 0) || !std::isfinite(wavelengths.back()))
     throw py::value_error("wavelengths are two or more numbers of nm above 0, ascending");
   const SpectralWeights weights = emissive_weights(
@@ -90,8 +90,7 @@ std::vector<py::tuple> illuminants() {
 /// Wavelengths in whole nm, and relative power.
 py::tuple illuminant(const std::string& name) {
   const std::optional<Spectrum> light = illuminant_spectrum(name);
-  if (!light)
-    throw py::value_error("unknown illuminant '" + name + "'; there are " + illuminant_names());
+  if (!light) throw py::value_error("unknown illuminant '" + name + "'; there are " + illuminant_names());
   std::vector<double> nm, power;
   for (int i = 380; i <= 780; i += 5) {
     nm.push_back(i);
@@ -133,9 +132,9 @@ py::array_t<double> adaptation_track(const std::vector<double>& luminances, doub
   for (std::size_t i = 0; i < states.size(); ++i) {
     const AdaptationState& s = states[i];
     const AdaptationThresholds t = thresholds_of(s, luminances[i]);
-    for (const double value : {s.rod_bleached, s.rod_product, s.cone_bleached, s.rod_neural, s.cone_neural,
-                               t.rod_luminance, t.cone_luminance, t.rod_log10, t.cone_log10, t.log10,
-                               t.exposure})
+    for (const double value :
+         {s.rod_bleached, s.rod_product, s.cone_bleached, s.rod_neural, s.cone_neural, t.rod_luminance,
+          t.cone_luminance, t.rod_log10, t.cone_log10, t.log10, t.exposure})
       *to++ = value;
   }
   return out;

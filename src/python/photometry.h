@@ -1,4 +1,5 @@
-// What the module knows of light without an image: receptors, mesopic photometry, pupil, thresholds, adaptation in time.
+// What the module knows of light without an image: receptors, mesopic photometry, pupil, thresholds,
+// adaptation in time.
 #pragma once
 
 #include <pybind11/pybind11.h>

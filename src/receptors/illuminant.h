@@ -27,7 +27,8 @@ std::string illuminant_names();
 std::optional<double> parse_sp_ratio(std::string_view name_or_number);
 
 /// Relative spectral power of a named illuminant: for reflectances, which need more than a ratio. Moonlight
-/// is CIE daylight of 4490 K (S/P 2.03); the lamps are single products of their kind (S/P .648, 1.330, 1.724).
+/// is CIE daylight of 4490 K (S/P 2.03); the lamps are single products of their kind (S/P
+/// .648, 1.330, 1.724).
 std::optional<Spectrum> illuminant_spectrum(std::string_view name);
 
 }  // namespace scotopic

@@ -27,23 +27,29 @@ struct Darkness {
 
 Darkness darkness(const AppearanceParameters& p, const SceneStatistics* s) {
   const bool local = p.weight == Weight::local && s && s->finite() > 0;
-  const double least = local ? p.adaptation + std::max(0.0, double{s->least} * p.white_luminance) : p.adaptation;
+  const double least =
+      local ? p.adaptation + std::max(0.0, double{s->least} * p.white_luminance) : p.adaptation;
   if (!(least < photopic_limit)) return {least, 0, local};
   const double limit = (photopic_limit - p.adaptation) / p.white_luminance;
   return {least, local ? 1 - s->photopic.share_from(limit) : 1, local};
 }
 
 EffectDecision decide_dark(std::string_view effect, double strength, const Darkness& dark) {
-  EffectDecision d{.effect = effect, .asked = strength > 0, .number = dark.least_local,
-                   .threshold = photopic_limit, .unit = "cd/m2"};
+  EffectDecision d{.effect = effect,
+                   .asked = strength > 0,
+                   .number = dark.least_local,
+                   .threshold = photopic_limit,
+                   .unit = "cd/m2"};
   d.needed = dark.least_local < photopic_limit;
   d.share = d.needed ? dark.share : 0;
   const char* what = dark.from_pixels ? "the darkest pixel is adapted to" : "the eye is adapted to";
-  d.reason = what + text(d.needed ? " %.4g cd/m2, below %g" : " %.4g cd/m2, not below %g", d.number, d.threshold);
+  d.reason =
+      what + text(d.needed ? " %.4g cd/m2, below %g" : " %.4g cd/m2, not below %g", d.number, d.threshold);
   return d;
 }
 
-EffectDecision decide_luminance(const AppearanceParameters& p, const Darkness& dark, const SceneStatistics* s) {
+EffectDecision decide_luminance(const AppearanceParameters& p, const Darkness& dark,
+                                const SceneStatistics* s) {
   const double strength = p.luminance == LuminancePolicy::none ? 0 : p.strength.all * p.strength.luminance;
   EffectDecision d = decide_dark("luminance", strength, dark);
   if (!d.needed || !s || p.luminance != LuminancePolicy::mesopic || s->sp_deviation > sp_tolerance) return d;
@@ -52,7 +58,8 @@ EffectDecision decide_luminance(const AppearanceParameters& p, const Darkness& d
   d.number = s->sp_deviation;
   d.threshold = sp_tolerance;
   d.unit = "";
-  d.reason = text("no pixel's S/P ratio differs from white's by more than %.2g, within %g", d.number, d.threshold);
+  d.reason =
+      text("no pixel's S/P ratio differs from white's by more than %.2g, within %g", d.number, d.threshold);
   return d;
 }
 
@@ -74,7 +81,8 @@ double largest_difference(const AppearanceParameters& with, const AppearancePara
   double largest = 0;
   for (std::size_t i = 0; i + 2 < s.samples.size(); i += 3) {
     const ReferencePixel pixel{{s.samples[i], s.samples[i + 1], s.samples[i + 2]}, {}, {}};
-    largest = std::max(largest, exposed_difference(with.xyz_from_rgb * a(pixel), with.xyz_from_rgb * b(pixel)));
+    largest =
+        std::max(largest, exposed_difference(with.xyz_from_rgb * a(pixel), with.xyz_from_rgb * b(pixel)));
   }
   return largest;
 }
@@ -82,10 +90,14 @@ double largest_difference(const AppearanceParameters& with, const AppearancePara
 void measure_differences(ScenePlan& plan, const AppearanceParameters& asked, const SceneStatistics& s) {
   for (EffectDecision& d : plan.effects) {
     AppearanceParameters without = asked;
-    if (d.effect == "shift") without.strength.shift = 0;
-    else if (d.effect == "luminance") without.luminance = LuminancePolicy::photopic;
-    else if (d.effect == "chroma") without.strength.chroma = 0;
-    else continue;
+    if (d.effect == "shift")
+      without.strength.shift = 0;
+    else if (d.effect == "luminance")
+      without.luminance = LuminancePolicy::photopic;
+    else if (d.effect == "chroma")
+      without.strength.chroma = 0;
+    else
+      continue;
     d.difference = largest_difference(asked, without, s);
   }
 }
@@ -118,7 +130,8 @@ ScenePlan plan_scene(const AppearanceParameters& p, const SceneStatistics* stati
   if (!plan.effect("chroma").needed) plan.parameters.strength.chroma = 0;
   // Where mesopic luminance equals photopic, the shift's own brightening still has to be undone.
   if (!plan.effect("luminance").needed && p.luminance == LuminancePolicy::mesopic)
-    plan.parameters.luminance = plan.effect("shift").runs() ? LuminancePolicy::photopic : LuminancePolicy::none;
+    plan.parameters.luminance =
+        plan.effect("shift").runs() ? LuminancePolicy::photopic : LuminancePolicy::none;
   return plan;
 }
 

@@ -42,7 +42,8 @@ bool finite_signals(const PixelRows& rows, std::size_t i) noexcept {
 }
 
 bool is_finite(const PixelRows& rows, std::size_t i) noexcept {
-  return std::isfinite(rows.r[i]) && std::isfinite(rows.g[i]) && std::isfinite(rows.b[i]) && finite_signals(rows, i);
+  return std::isfinite(rows.r[i]) && std::isfinite(rows.g[i]) && std::isfinite(rows.b[i]) &&
+         finite_signals(rows, i);
 }
 
 void SceneStatistics::add(const SceneStatistics& other) {
@@ -82,8 +83,10 @@ void SceneMeter::measure(const PixelRows& rows, std::uint64_t first_pixel, Scene
     s.greatest = std::max(s.greatest, y);
     s.photopic.add(y);
     s.scotopic.add(to_float(scotopic));
-    if (y > 0) s.sp_deviation = std::max(s.sp_deviation, to_float(std::abs(scotopic / (white_scotopic_ * y) - 1)));
-    else if (scotopic > 0) s.sp_deviation = std::numeric_limits<float>::infinity();
+    if (y > 0)
+      s.sp_deviation = std::max(s.sp_deviation, to_float(std::abs(scotopic / (white_scotopic_ * y) - 1)));
+    else if (scotopic > 0)
+      s.sp_deviation = std::numeric_limits<float>::infinity();
   }
 }
 

@@ -20,10 +20,12 @@ bool finite_signals(const PixelRows& rows, std::size_t i) noexcept;
 struct SceneStatistics {
   LuminanceHistogram photopic;
   LuminanceHistogram scotopic;
-  std::uint64_t non_finite = 0;  ///< pixels with a component, of light or receptors, that is NaN or infinite; in no number
+  std::uint64_t non_finite =
+      0;  ///< pixels with a component, of light or receptors, that is NaN or infinite; in no number
   float least = std::numeric_limits<float>::infinity();      ///< of Y over finite pixels; may be negative
   float greatest = -std::numeric_limits<float>::infinity();  ///< below least: there is no finite pixel
-  /// Greatest |S/P over white's - 1| among pixels of positive luminance; infinite if rods see light where Y <= 0.
+  /// Greatest |S/P over white's - 1| among pixels of positive luminance; infinite if rods see light where Y
+  /// <= 0.
   float sp_deviation = 0;
   /// RGB triples from all over the picture, for measuring what an effect would do.
   std::vector<float> samples;
@@ -36,10 +38,12 @@ struct SceneStatistics {
   double mean_scotopic() const noexcept;
   /// S/P ratio of the whole picture's light; white's where there is no light.
   double sp_ratio() const noexcept;
-  /// exp(mean(ln(Y + 1e-6 greatest))), image units: what the eye is taken to be adapted to. 0 if all is black.
+  /// exp(mean(ln(Y + 1e-6 greatest))), image units: what the eye is taken to be adapted to. 0 if all is
+  /// black.
   double log_mean_luminance() const noexcept;
 
-  /// Adds what another pass over other rows has found. The order of additions does not matter, but for samples.
+  /// Adds what another pass over other rows has found. The order of additions does not matter, but for
+  /// samples.
   void add(const SceneStatistics& other);
 };
 

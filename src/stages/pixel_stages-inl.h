@@ -20,17 +20,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace scotopic::HWY_NAMESPACE {
 
-/// Pixels that are not `active` are left alone, whatever `rgb` says. Of the others, `doubtful` are those that need
-/// more digits, be it to see that they are not active: whose luminance is what is left of a cancellation, or with a
-/// negative cone signal, which the rods' may cancel under the kernel's root.
+/// Pixels that are not `active` are left alone, whatever `rgb` says. Of the others, `doubtful` are those that
+/// need more digits, be it to see that they are not active: whose luminance is what is left of a
+/// cancellation, or with a negative cone signal, which the rods' may cancel under the kernel's root.
 template <class V, class M>
 struct SeenPixel {
   Triple<V> rgb;
   M active, doubtful;
 };
 
-/// N: a number type. `stages` and `receptors` say what code is compiled for; StageSet::any asks the switches. The same
-/// arithmetic, hence the same bits, any way.
+/// N: a number type. `stages` and `receptors` say what code is compiled for; StageSet::any asks the switches.
+/// The same arithmetic, hence the same bits, any way.
 template <class N, StageSet stages = StageSet::any, Receptors receptors = Receptors::maybe>
 class PixelStages {
   using T = typename N::T;
@@ -85,10 +85,13 @@ class PixelStages {
   bool safko() const { return any ? on_.safko : stages == StageSet::kernel; }
   bool shift_on() const { return any ? on_.shift : one_of({StageSet::all, StageSet::grey, StageSet::shift}); }
   bool luminance_on() const { return any ? on_.luminance : one_of({StageSet::all, StageSet::grey}); }
-  bool chroma_on() const { return any ? on_.chroma : one_of({StageSet::all, StageSet::grey, StageSet::chroma}); }
+  bool chroma_on() const {
+    return any ? on_.chroma : one_of({StageSet::all, StageSet::grey, StageSet::chroma});
+  }
   bool quadratic_rods() const { return any && on_.quadratic_rods; }
 
-  // Pixels whose luminance is what is left of a cancellation; where it may be below the limit, too, they are active.
+  // Pixels whose luminance is what is left of a cancellation; where it may be below the limit, too, they are
+  // active.
   HWY_INLINE void find_cancelled(const Triple<V>& terms, V y, V over_limit, Seen& seen) const {
     const V magnitude = sum(Triple<V>{n_.abs(terms.x), n_.abs(terms.y), n_.abs(terms.z)});
     seen.doubtful = n_.less(y, n_.number(T(0.5)) * magnitude);
@@ -104,7 +107,8 @@ class PixelStages {
   HWY_INLINE void see(const Pixel& p, V y, V local, Seen& seen) const {
     const Triple<V> cones = times(n_, k_.receptors.lms_from_rgb, p.rgb);
     if constexpr (needs_more_digits)
-      seen.doubtful = n_.both(seen.active, n_.either(seen.doubtful, below_zero(n_, has_cones(p) ? p.cones : cones)));
+      seen.doubtful =
+          n_.both(seen.active, n_.either(seen.doubtful, below_zero(n_, has_cones(p) ? p.cones : cones)));
     const V share = n_.rod_share(any ? local + n_.constant(k_.weight.behind) : local, k_.weight);
     PixelState<V> s{p, p.rgb, cones, cones, y, local, rods(p, y), share};
     if (shift_on()) shift(n_, k_.shift, k_.receptors, *this, s);
@@ -118,10 +122,13 @@ class PixelStages {
     seen.active = operable(p);
     if (n_.none(seen.active)) return false;
     const Triple<V> q = has_cones(p) ? p.cones : times(n_, k_.receptors.lms_from_rgb, p.rgb);
-    if constexpr (needs_more_digits) seen.doubtful = n_.both(seen.active, below_zero(n_, q));
-    else seen.doubtful = n_.never();
+    if constexpr (needs_more_digits)
+      seen.doubtful = n_.both(seen.active, below_zero(n_, q));
+    else
+      seen.doubtful = n_.never();
     const V rod = rods(p, dot(n_, k_.receptors.y_row, p.rgb));
-    seen.rgb = times(n_, k_.shift.rgb_from_lms, q) + times(n_, k_.shift.rgb_shift, rod_response(n_, k_.shift, q, rod));
+    seen.rgb = times(n_, k_.shift.rgb_from_lms, q) +
+               times(n_, k_.shift.rgb_shift, rod_response(n_, k_.shift, q, rod));
     return true;
   }
 

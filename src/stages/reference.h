@@ -1,4 +1,5 @@
-// The appearance operator, one pixel at a time in double: written to be read, and what every faster way is held to.
+// The appearance operator, one pixel at a time in double: written to be read, and what every faster way is
+// held to.
 #pragma once
 
 #include <optional>
@@ -15,10 +16,11 @@ struct ReferencePixel {
   std::optional<double> rod{};          ///< likewise; absent: estimated from rgb
 };
 
-/// Any rgb is accepted; a component (of any signal given) that is not finite, or beyond operable_limit, makes the
-/// pixel pass unchanged. Else continuous (C0) in rgb and in La. Black stays black. What La >= 5 cd/m2 or Lloc >= 5 cd/m2 leaves alone is returned
-/// bit for bit. Error against exact arithmetic: 2e-13 of the pixel's largest component, in or out; 1e-8 where rods
-/// cancel a negative cone signal under the kernel's root (tests/properties).
+/// Any rgb is accepted; a component (of any signal given) that is not finite, or beyond operable_limit, makes
+/// the pixel pass unchanged. Else continuous (C0) in rgb and in La. Black stays black. What La >= 5 cd/m2 or
+/// Lloc >= 5 cd/m2 leaves alone is returned bit for bit. Error against exact arithmetic: 2e-13 of the pixel's
+/// largest component, in or out; 1e-8 where rods cancel a negative cone signal under the kernel's root
+/// (tests/properties).
 class AppearanceReference {
  public:
   /// Parameters are taken to lie in their domains.
@@ -41,11 +43,11 @@ double rod_signal_from_rgb(const OperatorConstants& constants, const Vec3<double
 
 /// Factor that takes a colour of luminance `from` to `to` at constant chromaticity:
 ///   max(0, u to/f + (1 - u^2)),  f = max(|from|, luminance_floor * largest),  u = from/f,
-/// largest: the greatest |cone signal| relative to white's, of the pixel as it came in or as it is about to be
-/// scaled (what is left of a cancellation has no chromaticity to keep). That is to/from wherever |from| is at least
-/// that floor (neutrals, lights, all that a gamut holds); below, continuous, 1 when to = from, and at most
-/// |to|/(luminance_floor * largest) + 1. A luminance that would change sign becomes 0. Black (largest = 0): 1.
-/// Never over 1e18, which only black with a rod signal of its own could ask for.
+/// largest: the greatest |cone signal| relative to white's, of the pixel as it came in or as it is about to
+/// be scaled (what is left of a cancellation has no chromaticity to keep). That is to/from wherever |from| is
+/// at least that floor (neutrals, lights, all that a gamut holds); below, continuous, 1 when to = from, and
+/// at most |to|/(luminance_floor * largest) + 1. A luminance that would change sign becomes 0. Black (largest
+/// = 0): 1. Never over 1e18, which only black with a rod signal of its own could ask for.
 double luminance_ratio(double from, double to, double largest) noexcept;
 
 }  // namespace scotopic

@@ -10,9 +10,7 @@ namespace {
 
 TEST(Pupil, trolands_per_luminance_follow_watson_yellott) {
   // Evaluated independently from the paper's equations 20 and 21 for a 60 degree disc, both eyes, age 28.58.
-  const struct {
-    double adaptation, trolands;
-  } rows[] = {{0.01, 39.76}, {1, 20.91}, {100, 6.59}};
+  const struct { double adaptation, trolands; } rows[] = {{0.01, 39.76}, {1, 20.91}, {100, 6.59}};
   for (const auto& row : rows) EXPECT_NEAR(trolands_per_luminance(row.adaptation), row.trolands, 0.005);
 }
 

@@ -25,8 +25,10 @@ constexpr std::array<Row, 9> table = {{{10, -0.343, -0.047},
 
 TEST(VisibilityStops, are_the_published_rules_values) {
   for (const Row& row : table) {
-    EXPECT_NEAR(visibility_stops(row.adaptation, VisibilityRule::ward1997), row.ward1997, 6e-4) << row.adaptation;
-    EXPECT_NEAR(visibility_stops(row.adaptation, VisibilityRule::hdrvdp2), row.hdrvdp2, 6e-4) << row.adaptation;
+    EXPECT_NEAR(visibility_stops(row.adaptation, VisibilityRule::ward1997), row.ward1997, 6e-4)
+        << row.adaptation;
+    EXPECT_NEAR(visibility_stops(row.adaptation, VisibilityRule::hdrvdp2), row.hdrvdp2, 6e-4)
+        << row.adaptation;
   }
 }
 

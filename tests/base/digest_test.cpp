@@ -38,8 +38,7 @@ TEST(Sha256, a_file_has_the_digest_of_its_bytes_however_many_blocks_they_fill) {
 }
 
 TEST(Sha256, no_file_a_folder_and_a_device_are_refused) {
-  for (const char* place : {"/no/such/file", "/tmp", "/dev/zero"})
-    try {
+  for (const char* place : {"/no/such/file", "/tmp", "/dev/zero"}) try {
       (void)sha256_of_file(place);
       ADD_FAILURE() << place;
     } catch (const Error& error) {

@@ -86,9 +86,10 @@ Worst against_reference(const AppearanceParameters& p, const Image& in, Precisio
 }
 
 void print(const char* what, double la, const Worst& w) {
-  std::printf("%s La %-8.3g worst %.3g at (%.9g, %.9g, %.9g): got (%.9g, %.9g, %.9g), expected (%.9g, %.9g, %.9g)\n", what,
-              la, w.error, w.in[0], w.in[1], w.in[2], w.got[0], w.got[1], w.got[2], w.expected[0], w.expected[1],
-              w.expected[2]);
+  std::printf(
+      "%s La %-8.3g worst %.3g at (%.9g, %.9g, %.9g): got (%.9g, %.9g, %.9g), expected (%.9g, %.9g, %.9g)\n",
+      what, la, w.error, w.in[0], w.in[1], w.in[2], w.got[0], w.got[1], w.got[2], w.expected[0],
+      w.expected[1], w.expected[2]);
 }
 
 class BatchAgainstReference : public testing::TestWithParam<double> {};
@@ -111,7 +112,8 @@ TEST_P(BatchAgainstReference, double_inside_is_within_an_ulp_of_float) {
   EXPECT_LE(worst.error, 6.1e-8);
 }
 
-INSTANTIATE_TEST_SUITE_P(Adaptations, BatchAgainstReference, testing::Values(1e-6, 1e-4, 0.001, 0.01, 0.1, 1.0, 4.9));
+INSTANTIATE_TEST_SUITE_P(Adaptations, BatchAgainstReference,
+                         testing::Values(1e-6, 1e-4, 0.001, 0.01, 0.1, 1.0, 4.9));
 
 TEST(Batch, options_agree_with_the_reference) {
   const Image in = many_colours(5000, 9, 1e-4, 100);
@@ -258,7 +260,8 @@ TEST(Batch, photopic_pixels_keep_their_bits_and_say_so) {
   for (std::size_t i = 0; i < n; ++i) {
     if (std::isfinite(in.r[i]) && std::isfinite(in.g[i]) && std::isfinite(in.b[i])) {
       EXPECT_TRUE(std::isfinite(out.r[i]) && std::isfinite(out.g[i]) && std::isfinite(out.b[i]))
-          << in.r[i] << ' ' << in.g[i] << ' ' << in.b[i] << " -> " << out.r[i] << ' ' << out.g[i] << ' ' << out.b[i];
+          << in.r[i] << ' ' << in.g[i] << ' ' << in.b[i] << " -> " << out.r[i] << ' ' << out.g[i] << ' '
+          << out.b[i];
     } else {
       EXPECT_EQ(touched[i], 0);
       EXPECT_EQ(std::bit_cast<std::uint32_t>(out.r[i]), std::bit_cast<std::uint32_t>(in.r[i]));

@@ -22,7 +22,8 @@ using Exact = long double;
 // The EV is a parameter of the stage, not part of what is judged here: thresholds_test has it.
 Vec3<Exact> shown(const NightDisplayParameters& p, const Vec3<float>& rgb) {
   const Exact stops = p.strength * static_cast<Exact>(visibility_stops(p.adaptation, p.rule, p.viewing));
-  const Exact scale = p.viewing / static_cast<Exact>(p.adaptation) * std::exp2(stops) * p.white_luminance / p.peak;
+  const Exact scale =
+      p.viewing / static_cast<Exact>(p.adaptation) * std::exp2(stops) * p.white_luminance / p.peak;
   const Matrix3<Exact> to = (inverse(p.xyz_from_display) * p.xyz_from_rgb).to<Exact>(), back = inverse(to);
   Vec3<Exact> x = to * Vec3<Exact>{rgb[0], rgb[1], rgb[2]};
   for (Exact& c : x) c = std::max(Exact(0), c * scale);
@@ -84,7 +85,8 @@ TEST_P(DisplayBatchTest, is_the_formula_to_a_few_ulp_of_what_is_shown) {
             worst = std::max(worst, static_cast<double>(std::abs(got[c] - e[c]) / largest));
         }
       }
-  std::printf("display, %s: worst error %.2g of the largest component\n", single ? "float" : "double inside", worst);
+  std::printf("display, %s: worst error %.2g of the largest component\n", single ? "float" : "double inside",
+              worst);
   EXPECT_LE(worst, single ? 1.5e-6 : 6.5e-8);
 }
 
@@ -101,8 +103,8 @@ TEST(DisplayBatch, every_target_and_every_length_gives_the_same_bits) {
     for (const std::size_t step : {std::size_t{1}, std::size_t{7}, std::size_t{64}, in.r.size()}) {
       Planes pieces = in;
       for (std::size_t at = 0; at < in.r.size(); at += step)
-        batch.apply({pieces.r.data() + at, pieces.g.data() + at, pieces.b.data() + at, nullptr, nullptr, nullptr, nullptr,
-                     std::min(step, in.r.size() - at)});
+        batch.apply({pieces.r.data() + at, pieces.g.data() + at, pieces.b.data() + at, nullptr, nullptr,
+                     nullptr, nullptr, std::min(step, in.r.size() - at)});
       EXPECT_EQ(pieces.r, all.r) << hwy::TargetName(target) << step;
       EXPECT_EQ(pieces.b, all.b) << hwy::TargetName(target) << step;
     }
@@ -118,7 +120,8 @@ TEST(DisplayBatch, what_needs_neither_scale_nor_shoulder_keeps_its_bits) {
   EXPECT_TRUE(batch.keeps_range());
   Planes planes;
   for (int code = 0; code < 65536; ++code)
-    for (std::vector<float>* plane : {&planes.r, &planes.g, &planes.b}) plane->push_back(static_cast<float>(code) / 65535.0f);
+    for (std::vector<float>* plane : {&planes.r, &planes.g, &planes.b})
+      plane->push_back(static_cast<float>(code) / 65535.0f);
   const Planes in = planes;
   std::vector<std::uint8_t> touched(in.r.size());
   batch.apply(planes.rows(), touched.data());

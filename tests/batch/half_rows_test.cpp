@@ -48,7 +48,8 @@ TEST(HalfRows, every_half_becomes_its_float_payloads_included) {
     std::vector<float> out(halves.size());
     floats_from_halves(halves.data(), halves.size(), out.data());
     for (unsigned i = 0; i < 65536; ++i)
-      ASSERT_EQ(std::bit_cast<std::uint32_t>(out[i]), std::bit_cast<std::uint32_t>(value_of(i))) << target << ' ' << i;
+      ASSERT_EQ(std::bit_cast<std::uint32_t>(out[i]), std::bit_cast<std::uint32_t>(value_of(i)))
+          << target << ' ' << i;
     std::vector<std::uint16_t> back(halves.size());
     halves_from_floats(out.data(), out.size(), back.data());
     EXPECT_EQ(back, halves) << target;

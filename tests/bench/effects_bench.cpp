@@ -1,6 +1,7 @@
-// What it costs that effects are skipped where a scene does not call for them: the program against nothing but reading
-// and writing the file, and the operator where a quarter of the picture is lit. CPU time, one thread, in turn.
-// Usage: bench_effects [ROUNDS] [--json]          (bench_effects --copy IN OUT is what the program is held to)
+// What it costs that effects are skipped where a scene does not call for them: the program against nothing
+// but reading and writing the file, and the operator where a quarter of the picture is lit. CPU time, one
+// thread, in turn. Usage: bench_effects [ROUNDS] [--json]          (bench_effects --copy IN OUT is what the
+// program is held to)
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfCompression.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -42,7 +43,8 @@ AppearanceParameters night() {
   return p;
 }
 
-// --- Files -----------------------------------------------------------------------------------------------------------
+// --- Files
+// -----------------------------------------------------------------------------------------------------------
 
 void write_exr(const std::string& path, const TimedPicture& picture, Imf::Compression compression) {
   const std::size_t width = picture.width, height = picture.rows();
@@ -75,9 +77,12 @@ void copy_exr(const char* from, const char* to) {
     const int count = std::min(rows, window.max.y - y + 1);
     Imf::FrameBuffer frame;
     for (std::size_t c = 0; c < 3; ++c) {
-      const auto at = reinterpret_cast<std::intptr_t>(halves.data() + c * width * static_cast<std::size_t>(rows));
-      const std::intptr_t origin = at - std::intptr_t{y} * static_cast<std::intptr_t>(2 * width) - 2 * window.min.x;
-      frame.insert(std::string(1, "RGB"[c]), Imf::Slice(Imf::HALF, reinterpret_cast<char*>(origin), 2, 2 * width));
+      const auto at =
+          reinterpret_cast<std::intptr_t>(halves.data() + c * width * static_cast<std::size_t>(rows));
+      const std::intptr_t origin =
+          at - std::intptr_t{y} * static_cast<std::intptr_t>(2 * width) - 2 * window.min.x;
+      frame.insert(std::string(1, "RGB"[c]),
+                   Imf::Slice(Imf::HALF, reinterpret_cast<char*>(origin), 2, 2 * width));
     }
     in.setFrameBuffer(frame);
     in.readPixels(y, y + count - 1);
@@ -98,8 +103,11 @@ double child_seconds(const std::vector<std::string>& command) {
   }
   int status = 0;
   rusage used{};
-  if (child < 0 || wait4(child, &status, 0, &used) < 0 || status != 0) throw std::runtime_error("failed: " + command[0]);
-  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  if (child < 0 || wait4(child, &status, 0, &used) < 0 || status != 0)
+    throw std::runtime_error("failed: " + command[0]);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
   return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
@@ -109,10 +117,11 @@ double thread_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// --- The operator in memory ------------------------------------------------------------------------------------------
+// --- The operator in memory
+// ------------------------------------------------------------------------------------------
 
-/// A 4K frame as planes, no pixel lit, or every pixel of each fourth tile; and room for a piece of a row, as the image tool
-/// takes them.
+/// A 4K frame as planes, no pixel lit, or every pixel of each fourth tile; and room for a piece of a row, as
+/// the image tool takes them.
 struct Frame {
   static constexpr std::size_t piece = 512;
   TimedPicture picture;
@@ -145,7 +154,8 @@ struct Frame {
   }
 };
 
-// --- Figures ---------------------------------------------------------------------------------------------------------
+// --- Figures
+// ---------------------------------------------------------------------------------------------------------
 
 struct Figure {
   std::string name, unit;
@@ -157,11 +167,13 @@ struct Figure {
     for (std::size_t i = 0; i < is.size(); ++i) each.push_back(is[i] / against[i]);
     const double ratio = run_time(each).median;
     if (json)
-      std::printf("%s{\"what\":\"%s\",\"unit\":\"%s\",\"median\":%.4g,\"against\":%.4g,\"ratio\":%.4g,\"ratioOfLeast\":%.4g}",
-                  first ? "" : ",\n", name.c_str(), unit.c_str(), a.median, b.median, ratio, a.least / b.least);
+      std::printf(
+          "%s{\"what\":\"%s\",\"unit\":\"%s\",\"median\":%.4g,\"against\":%.4g,\"ratio\":%.4g,"
+          "\"ratioOfLeast\":%.4g}",
+          first ? "" : ",\n", name.c_str(), unit.c_str(), a.median, b.median, ratio, a.least / b.least);
     else
-      std::printf("%-62s %8.3f %s against %8.3f: %.3f x (least %.3f x)\n", name.c_str(), a.median, unit.c_str(), b.median,
-                  ratio, a.least / b.least);
+      std::printf("%-62s %8.3f %s against %8.3f: %.3f x (least %.3f x)\n", name.c_str(), a.median,
+                  unit.c_str(), b.median, ratio, a.least / b.least);
   }
 };
 
@@ -212,8 +224,10 @@ int measure(const std::string& self, int rounds, bool json) {
       {"1080p half uncompressed, shift, luminance, chroma", file("1080_plain.exr"), dark}};
   std::vector<Figure> figures = {time_lit(rounds)};
   for (const FileCase& c : cases) figures.push_back(time_file(c, self, out, rounds));
-  if (json) std::printf("[\n");
-  else std::printf("%s, medians of %d rounds, each against its pair of the same round\n", simd_target(), rounds);
+  if (json)
+    std::printf("[\n");
+  else
+    std::printf("%s, medians of %d rounds, each against its pair of the same round\n", simd_target(), rounds);
   for (std::size_t i = 0; i < figures.size(); ++i) figures[i].print(json, i == 0);
   if (json) std::printf("]\n");
   std::filesystem::remove_all(folder);

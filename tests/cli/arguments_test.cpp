@@ -265,7 +265,7 @@ class Faults : public ::testing::Test {
       if (a == "OUT") a = "OUT.exr";
       for (const char* name :
            {"IN", "OUT.exr", "TEXT", "EMPTY", "CUT", "NONE", "FOLDER", "FOLDER/none/out.exr", "out.gif",
-                               "out.png", "out.clf", "FOLDER/none/out.clf", "IN/out.exr", "none.ocio"})
+            "out.png", "out.clf", "FOLDER/none/out.clf", "IN/out.exr", "none.ocio"})
         if (a == name) {
           a = folder_ + "/" + a;
           break;
@@ -310,7 +310,8 @@ TEST_F(Faults, json_says_the_same) {
     ASSERT_TRUE(said.contains("error")) << outcome.err;
     EXPECT_EQ(said["error"]["code"], fault.exit_code);
     EXPECT_EQ(said["error"]["filesWritten"], 0);
-    const std::string message = said["error"]["file"].get<std::string>() + ": " + said["error"]["message"].get<std::string>();
+    const std::string message =
+        said["error"]["file"].get<std::string>() + ": " + said["error"]["message"].get<std::string>();
     EXPECT_NE(message.find(fault.says), std::string::npos) << message;
   }
 }
@@ -331,7 +332,8 @@ TEST(Help, every_verb_has_one_with_an_example) {
     const test::Outcome outcome = test::run_program({verb, "--help"});
     EXPECT_EQ(outcome.exit_code, 0) << verb;
     EXPECT_NE(outcome.out.find("Example"), std::string::npos) << verb;
-    EXPECT_NE(outcome.out.find("scotopic " + verb + " "), outcome.out.rfind("scotopic " + verb + " ")) << verb << ": usage alone";
+    EXPECT_NE(outcome.out.find("scotopic " + verb + " "), outcome.out.rfind("scotopic " + verb + " "))
+        << verb << ": usage alone";
   }
   EXPECT_EQ(test::run_program({"--version"}).out.rfind("scotopic ", 0), 0u);
 }

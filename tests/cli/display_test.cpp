@@ -25,7 +25,8 @@ std::string bytes_of(const std::string& file) {
 std::vector<std::uint8_t> pixels_of(const std::string& file) {
   const auto in = OIIO::ImageInput::open(file);
   if (!in) return {};
-  std::vector<std::uint8_t> out(static_cast<std::size_t>(in->spec().width) * static_cast<std::size_t>(in->spec().height) * 3);
+  std::vector<std::uint8_t> out(static_cast<std::size_t>(in->spec().width) *
+                                static_cast<std::size_t>(in->spec().height) * 3);
   if (!in->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, out.data())) out.clear();
   return out;
 }
@@ -87,8 +88,8 @@ TEST_F(DisplayOutput, a_picture_that_is_looked_at_is_a_night_and_light_stays_lig
 
 TEST_F(DisplayOutput, a_picture_seen_by_day_comes_back_with_its_bits) {
   applied("a.png", {"-d", "uint8"});
-  const test::Outcome again = test::run_program(
-      {"apply", path("a.png"), "-o", path("again.png"), "--adaptation", "100", "-q"});
+  const test::Outcome again =
+      test::run_program({"apply", path("a.png"), "-o", path("again.png"), "--adaptation", "100", "-q"});
   ASSERT_EQ(again.exit_code, 0) << again.err;
   ASSERT_FALSE(pixels_of(path("a.png")).empty());
   EXPECT_EQ(pixels_of(path("a.png")), pixels_of(path("again.png")));
@@ -96,15 +97,21 @@ TEST_F(DisplayOutput, a_picture_seen_by_day_comes_back_with_its_bits) {
 
 TEST_F(DisplayOutput, detail_needs_pixels_per_degree_assumes_them_on_a_display_and_says_so) {
   const auto run = [&](const char* out, std::vector<std::string> more) {
-    std::vector<std::string> arguments = {"apply", path("in.exr"), "-o", path(out), "--adaptation", "starlight"};
+    std::vector<std::string> arguments = {"apply",   path("in.exr"), "-o",
+                                          path(out), "--adaptation", "starlight"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return test::run_program(arguments);
   };
   EXPECT_EQ(run("a.exr", {"--acuity"}).exit_code, 2);
   EXPECT_EQ(run("a.exr", {"--effects", "acuity"}).exit_code, 2);
-  EXPECT_NE(run("a.png", {"--acuity"}).err.find("assumed: the picture is 40 degrees wide"), std::string::npos);
+  EXPECT_NE(run("a.png", {"--acuity"}).err.find("assumed: the picture is 40 degrees wide"),
+            std::string::npos);
   // Nyquist of 300 pixels over 360 degrees.
-  EXPECT_NEAR(applied("b.png", {"--projection", "latlong", "--detail", "bilateral"}).at("effects").at("detail").at("number").get<double>(),
+  EXPECT_NEAR(applied("b.png", {"--projection", "latlong", "--detail", "bilateral"})
+                  .at("effects")
+                  .at("detail")
+                  .at("number")
+                  .get<double>(),
               150.0 / 360, 1e-9);
   EXPECT_EQ(run("c.exr", {}).exit_code, 0);
 }
@@ -116,7 +123,8 @@ TEST_F(DisplayOutput, a_night_view_of_the_shipped_config_is_known_anywhere_and_l
   ASSERT_EQ(view.size(), stage.size());
   ASSERT_FALSE(view.empty());
   int worst = 0;
-  for (std::size_t i = 0; i < view.size(); ++i) worst = std::max(worst, std::abs(int{view[i]} - int{stage[i]}));
+  for (std::size_t i = 0; i < view.size(); ++i)
+    worst = std::max(worst, std::abs(int{view[i]} - int{stage[i]}));
   EXPECT_LE(worst, 3) << "codes of 255";
 }
 
@@ -131,8 +139,8 @@ TEST_F(DisplayOutput, safko_s_scale_is_used_and_stated) {
 
 TEST_F(DisplayOutput, the_share_of_clipped_pixels_is_told) {
   const auto run = [&](const char* out, const char* display, const char* exposure) {
-    return test::run_program({"apply", path("in.exr"), "-o", path(out), "--adaptation", "100", "--display", display,
-                              "--exposure", exposure, "--json"});
+    return test::run_program({"apply", path("in.exr"), "-o", path(out), "--adaptation", "100", "--display",
+                              display, "--exposure", exposure, "--json"});
   };
   const test::Outcome burnt = run("burnt.png", "none", "30");
   EXPECT_NE(burnt.err.find("are clipped to what the output's type holds"), std::string::npos) << burnt.err;

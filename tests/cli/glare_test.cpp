@@ -1,4 +1,5 @@
-// Light around lamps, by the program: when it runs, when it says why not, and that threads make no difference.
+// Light around lamps, by the program: when it runs, when it says why not, and that threads make no
+// difference.
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
@@ -68,7 +69,8 @@ TEST_F(Glare, a_lamp_lights_what_is_around_it_and_less_farther_away) {
     EXPECT_GE(at(x), at(x + 1)) << x;
     EXPECT_GT(at(x), 0.1f) << x;
   }
-  // K(10, 10) of the pixel-integrated CIE 135/1 function at 20 pixels a degree is 3.768e-5; the pyramid is within 3 %.
+  // K(10, 10) of the pixel-integrated CIE 135/1 function at 20 pixels a degree is 3.768e-5; the pyramid is
+  // within 3 %.
   const float veil = out[3 * (58 * 129 + 74)] - 0.1f;
   EXPECT_NEAR(veil / 1e5f, 3.768e-5f, 0.03f * 3.768e-5f);
 }
@@ -110,14 +112,15 @@ TEST_F(Glare, automatic_adaptation_meters_what_the_eye_has_scattered) {
 }
 
 TEST_F(Glare, more_memory_than_allowed_is_refused_before_it_is_taken) {
-  const test::Outcome outcome = apply(scene("lamp.exr", 1e5f), "a.exr", with({"--effects", "glare", "--max-memory", "200000"}));
+  const test::Outcome outcome =
+      apply(scene("lamp.exr", 1e5f), "a.exr", with({"--effects", "glare", "--max-memory", "200000"}));
   EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
 }
 
 TEST_F(Glare, explain_tells_threshold_pixels_veil_and_whose_eye) {
   // PSF(3 degrees) of an eye of 75 over that of the default, CIE 135/1: 1.82.
-  const test::Outcome outcome = test::run_program(
-      {"explain", scene("lamp.exr", 1e6f), "--adaptation", "0.1", "--ppd", "20", "--age", "75", "--json", "-q"});
+  const test::Outcome outcome = test::run_program({"explain", scene("lamp.exr", 1e6f), "--adaptation", "0.1",
+                                                   "--ppd", "20", "--age", "75", "--json", "-q"});
   const std::string reason = report(outcome)["effects"]["glare"]["reason"];
   for (const char* part : {"cd/m2 in the median pixel", "1 pixels are above", "scatters 1.82 times"})
     EXPECT_NE(reason.find(part), std::string::npos) << part << ": " << reason;
@@ -125,12 +128,13 @@ TEST_F(Glare, explain_tells_threshold_pixels_veil_and_whose_eye) {
 
 TEST_F(Glare, explain_advises_a_unit_where_the_picture_speaks_for_another) {
   const auto advice = [&](float lamp, const char* white) {
-    return report(test::run_program({"explain", scene("lamp.exr", lamp), "--adaptation", "0.01", "--white-luminance", white,
-                                     "--json", "-q"}))["advice"]
+    return report(test::run_program({"explain", scene("lamp.exr", lamp), "--adaptation", "0.01",
+                                     "--white-luminance", white, "--json", "-q"}))["advice"]
         .get<std::string>();
   };
   EXPECT_EQ(advice(1, "0.1"), "");
-  EXPECT_NE(advice(1, "1").find("--white-luminance 0.1 would make them agree"), std::string::npos) << advice(1, "1");
+  EXPECT_NE(advice(1, "1").find("--white-luminance 0.1 would make them agree"), std::string::npos)
+      << advice(1, "1");
 }
 
 }  // namespace

@@ -20,7 +20,9 @@ namespace scotopic {
 namespace {
 
 constexpr int width = 600, height = 40;  // more than a piece of a row
-struct Place { int x, y; };
+struct Place {
+  int x, y;
+};
 constexpr Place bad[] = {{513, 3}, {4, 17}};
 
 class NonFiniteReport : public ::testing::Test {
@@ -29,7 +31,8 @@ class NonFiniteReport : public ::testing::Test {
     folder_ = test::work_folder();
     Imf::Array2D<Imf::Rgba> pixels(height, width);
     for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) pixels[y][x] = Imf::Rgba(0.1f, 0.05f + 0.0003f * static_cast<float>(x), 0.2f);
+      for (int x = 0; x < width; ++x)
+        pixels[y][x] = Imf::Rgba(0.1f, 0.05f + 0.0003f * static_cast<float>(x), 0.2f);
     pixels[bad[0].y][bad[0].x].b = std::numeric_limits<float>::quiet_NaN();
     pixels[bad[1].y][bad[1].x].r = -std::numeric_limits<float>::infinity();
     Imf::RgbaOutputFile file(path("in.exr").c_str(), width, height, Imf::WRITE_RGB);
@@ -48,9 +51,9 @@ class NonFiniteReport : public ::testing::Test {
     Imf::Array2D<Imf::Rgba> pixels(height, width);
     file.setFrameBuffer(&pixels[0][0], 1, width);
     file.readPixels(0, height - 1);
-    return static_cast<int>(std::count_if(&pixels[0][0], &pixels[0][0] + width * height, [](const Imf::Rgba& p) {
-      return !(p.r.isFinite() && p.g.isFinite() && p.b.isFinite());
-    }));
+    return static_cast<int>(std::count_if(
+        &pixels[0][0], &pixels[0][0] + width * height,
+        [](const Imf::Rgba& p) { return !(p.r.isFinite() && p.g.isFinite() && p.b.isFinite()); }));
   }
   std::string folder_;
 };
@@ -84,7 +87,8 @@ TEST_F(NonFiniteReport, is_one_line_with_number_and_first_place_whatever_is_call
       const test::Outcome said = run(arguments);
       ASSERT_EQ(said.exit_code, 0) << said.err;
       EXPECT_EQ(times(said.err, "not finite"), 1) << said.err;
-      EXPECT_NE(said.err.find("in.exr: 2 pixels are not finite, the first at (513, 3); "), said.err.npos) << said.err;
+      EXPECT_NE(said.err.find("in.exr: 2 pixels are not finite, the first at (513, 3); "), said.err.npos)
+          << said.err;
       arguments.push_back("--json");
       EXPECT_EQ(nlohmann::json::parse(run(arguments).out).at("nonFinite"), 2);
       EXPECT_EQ(bad_pixels(), std::string(policy) == "keep" ? 2 : 0);
@@ -123,7 +127,9 @@ TEST_F(NonFiniteReport, lmsr_tells_of_them_too) {
 TEST_F(NonFiniteReport, explain_leaves_them_out_of_its_numbers_and_says_so) {
   const test::Outcome said = test::run_program({"explain", path("in.exr"), "--adaptation", "0.05"});
   ASSERT_EQ(said.exit_code, 0) << said.err;
-  EXPECT_EQ(times(said.err, "in.exr: 2 pixels are not finite, the first at (513, 3); in none of these numbers"), 1) << said.err;
+  EXPECT_EQ(
+      times(said.err, "in.exr: 2 pixels are not finite, the first at (513, 3); in none of these numbers"), 1)
+      << said.err;
 }
 
 TEST_F(NonFiniteReport, spectra_that_are_not_finite_are_told_of_and_spoil_no_other_pixel) {
@@ -135,8 +141,9 @@ TEST_F(NonFiniteReport, spectra_that_are_not_finite_are_told_of_and_spoil_no_oth
   Imf::FrameBuffer frame;
   for (const char* band : bands) {
     header.channels().insert(band, Imf::Channel(Imf::FLOAT));
-    frame.insert(band, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(band == bands[1] ? hole.data() : light.data()),
-                                  sizeof(float), sizeof(float) * width));
+    frame.insert(
+        band, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(band == bands[1] ? hole.data() : light.data()),
+                         sizeof(float), sizeof(float) * width));
   }
   {
     Imf::OutputFile file(path("in.exr").c_str(), header);
@@ -159,16 +166,18 @@ TEST_F(NonFiniteReport, spectra_that_are_not_finite_are_told_of_and_spoil_no_oth
 
 TEST_F(NonFiniteReport, colour_beside_an_alpha_that_is_no_number_stays_colour) {
   // TIFF holds alpha beside colour, OpenEXR multiplied into it.
-  for (const float alpha : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+  for (const float alpha :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     OIIO::ImageSpec spec(4, 1, 4, OIIO::TypeDesc::FLOAT);
     spec.attribute("oiio:UnassociatedAlpha", 1);
     std::vector<float> pixels(16, 0.5f);
     pixels[7] = alpha;
     const auto tiff = OIIO::ImageOutput::create(path("in.tif"));
-    ASSERT_TRUE(tiff && tiff->open(path("in.tif"), spec) && tiff->write_image(OIIO::TypeDesc::FLOAT, pixels.data()));
+    ASSERT_TRUE(tiff && tiff->open(path("in.tif"), spec) &&
+                tiff->write_image(OIIO::TypeDesc::FLOAT, pixels.data()));
     tiff->close();
-    const test::Outcome said =
-        test::run_program({"apply", path("in.tif"), "-o", path("out.exr"), "--adaptation", "0.05", "-d", "float"});
+    const test::Outcome said = test::run_program(
+        {"apply", path("in.tif"), "-o", path("out.exr"), "--adaptation", "0.05", "-d", "float"});
     ASSERT_EQ(said.exit_code, 0) << said.err;
     const auto exr = OIIO::ImageInput::open(path("out.exr"));
     std::vector<float> seen(16);

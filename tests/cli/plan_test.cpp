@@ -40,7 +40,9 @@ class Plan : public ::testing::Test {
     std::vector<std::uint16_t> values(3 * width * height);
     Imf::FrameBuffer buffer;
     for (std::size_t c = 0; c < 3; ++c)
-      buffer.insert(std::string(1, "RGB"[c]), Imf::Slice(Imf::HALF, reinterpret_cast<char*>(values.data() + c * width * height), 2, 2 * width));
+      buffer.insert(
+          std::string(1, "RGB"[c]),
+          Imf::Slice(Imf::HALF, reinterpret_cast<char*>(values.data() + c * width * height), 2, 2 * width));
     file.setFrameBuffer(buffer);
     file.readPixels(window.min.y, window.max.y);
     return values;
@@ -58,7 +60,8 @@ class Plan : public ::testing::Test {
 TEST_F(Plan, a_scene_that_calls_for_nothing_keeps_every_bit_and_says_so) {
   for (const char* adaptation : {"5", "5.001", "1000"}) {
     const test::Outcome outcome = apply("out.exr", {"--adaptation", adaptation});
-    EXPECT_NE(outcome.err.find("nothing to do; skipped shift (the eye is adapted to"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("nothing to do; skipped shift (the eye is adapted to"), std::string::npos)
+        << outcome.err;
     EXPECT_EQ(pixels("out.exr"), pixels("in.exr")) << adaptation;
   }
   EXPECT_EQ(apply("quiet.exr", {"--adaptation", "5", "-q"}).err, "");
@@ -100,10 +103,12 @@ TEST_F(Plan, acuity_takes_its_word_with_or_without_an_equals_sign_or_none_before
 TEST_F(Plan, acuity_runs_only_where_the_picture_holds_more_than_the_eye_resolves) {
   // At .01 cd/m2 the eye resolves 5.31 cycles a degree.
   apply("plain.exr", {"--adaptation", "0.01", "-q"});
-  const test::Outcome coarse = apply("coarse.exr", {"--adaptation", "0.01", "--ppd", "10.6", "--detail", "bilateral"});
+  const test::Outcome coarse =
+      apply("coarse.exr", {"--adaptation", "0.01", "--ppd", "10.6", "--detail", "bilateral"});
   EXPECT_NE(coarse.err.find("detail (the picture holds"), std::string::npos) << coarse.err;
   EXPECT_EQ(pixels("coarse.exr"), pixels("plain.exr"));
-  const test::Outcome fine = apply("fine.exr", {"--adaptation", "0.01", "--ppd", "60", "--detail", "bilateral"});
+  const test::Outcome fine =
+      apply("fine.exr", {"--adaptation", "0.01", "--ppd", "60", "--detail", "bilateral"});
   EXPECT_EQ(fine.err.find("detail ("), std::string::npos) << fine.err;
   EXPECT_NE(pixels("fine.exr"), pixels("plain.exr"));
 }
@@ -111,7 +116,8 @@ TEST_F(Plan, acuity_runs_only_where_the_picture_holds_more_than_the_eye_resolves
 // A picture whose every pixel has an S/P ratio further from white's by `deviation` (Rec.709, linear rods).
 void write_tinted(const std::string& file, double deviation) {
   // S/P over white's of (1, 1, 1 + t) is 1 + slope t for small t.
-  const Vec3<double> white = test::rec709 * Vec3<double>{1, 1, 1}, tinted = test::rec709 * Vec3<double>{1, 1, 1.001};
+  const Vec3<double> white = test::rec709 * Vec3<double>{1, 1, 1},
+                     tinted = test::rec709 * Vec3<double>{1, 1, 1.001};
   const auto ratio = [](const Vec3<double>& xyz) { return dot(scotopic_linear_from_xyz, xyz) / xyz[1]; };
   const double slope = (ratio(tinted) / ratio(white) - 1) / 0.001;
   const auto blue = static_cast<float>(1 + deviation / slope);
@@ -119,14 +125,16 @@ void write_tinted(const std::string& file, double deviation) {
   std::vector<float> planes(3 * width * height);
   for (int i = 0; i < width * height; ++i) {
     const float level = 0.001f * static_cast<float>(1 + i);
-    for (int c = 0; c < 3; ++c) planes[static_cast<std::size_t>(c * width * height + i)] = c == 2 ? level * blue : level;
+    for (int c = 0; c < 3; ++c)
+      planes[static_cast<std::size_t>(c * width * height + i)] = c == 2 ? level * blue : level;
   }
   Imf::Header header(width, height);
   Imf::FrameBuffer frame;
   for (int c = 0; c < 3; ++c) {
     const std::string name(1, "RGB"[c]);
     header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-    frame.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(planes.data() + c * width * height), 4, 4 * width));
+    frame.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(planes.data() + c * width * height), 4,
+                                  4 * width));
   }
   Imf::OutputFile out(file.c_str(), header);
   out.setFrameBuffer(frame);
@@ -136,12 +144,14 @@ void write_tinted(const std::string& file, double deviation) {
 std::vector<float> float_pixels(const std::string& name) {
   Imf::InputFile file(name.c_str());
   const Imath::Box2i window = file.header().dataWindow();
-  const auto width = static_cast<std::size_t>(window.max.x + 1), height = static_cast<std::size_t>(window.max.y + 1);
+  const auto width = static_cast<std::size_t>(window.max.x + 1),
+             height = static_cast<std::size_t>(window.max.y + 1);
   std::vector<float> values(3 * width * height);
   Imf::FrameBuffer buffer;
   for (std::size_t c = 0; c < 3; ++c)
-    buffer.insert(std::string(1, "RGB"[c]),
-                  Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data() + c * width * height), 4, 4 * width));
+    buffer.insert(
+        std::string(1, "RGB"[c]),
+        Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data() + c * width * height), 4, 4 * width));
   file.setFrameBuffer(buffer);
   file.readPixels(window.min.y, window.max.y);
   return values;
@@ -151,8 +161,9 @@ double largest_difference(const std::vector<float>& a, const std::vector<float>&
   double largest = 0;
   const std::size_t n = a.size() / 3;
   for (std::size_t i = 0; i < n; ++i)
-    largest = std::max(largest, exposed_difference(test::rec709 * Vec3<double>{a[i], a[n + i], a[2 * n + i]},
-                                                   test::rec709 * Vec3<double>{b[i], b[n + i], b[2 * n + i]}));
+    largest =
+        std::max(largest, exposed_difference(test::rec709 * Vec3<double>{a[i], a[n + i], a[2 * n + i]},
+                                             test::rec709 * Vec3<double>{b[i], b[n + i], b[2 * n + i]}));
   return largest;
 }
 
@@ -161,7 +172,8 @@ TEST_F(Plan, mesopic_luminance_is_skipped_up_to_the_tolerance_and_that_cannot_be
   for (const double deviation : {-0.0021, -0.0019, 0.0, 0.0019, 0.0021})
     for (const char* adaptation : {"auto", "auto:median"}) {
       write_tinted(path("in.exr"), deviation);
-      const test::Outcome planned = apply("auto.exr", {"--adaptation", adaptation, "--white-luminance", "0.01"});
+      const test::Outcome planned =
+          apply("auto.exr", {"--adaptation", adaptation, "--white-luminance", "0.01"});
       apply("all.exr", {"--adaptation", adaptation, "--white-luminance", "0.01", "--effects", "all", "-q"});
       const bool skipped = planned.err.find("skipped luminance") != std::string::npos;
       EXPECT_EQ(skipped, std::abs(deviation) < 0.002) << deviation << planned.err;
@@ -176,13 +188,14 @@ TEST_F(Plan, mesopic_luminance_is_skipped_up_to_the_tolerance_and_that_cannot_be
 
 TEST_F(Plan, acuity_turns_on_where_the_picture_s_finest_detail_meets_what_the_eye_resolves) {
   // At .01 cd/m2, 5.3137 cycles a degree, by the very number that explain prints.
-  const test::Outcome explained =
-      test::run_program({"explain", path("in.exr"), "--adaptation", "0.01", "--ppd", "20", "--detail", "bilateral", "--json"});
+  const test::Outcome explained = test::run_program(
+      {"explain", path("in.exr"), "--adaptation", "0.01", "--ppd", "20", "--detail", "bilateral", "--json"});
   const double limit = nlohmann::json::parse(explained.out)["effects"]["detail"]["threshold"].get<double>();
   apply("plain.exr", {"--adaptation", "0.01", "-q"});
   for (const double share : {0.999, 1.001}) {
     const std::string ppd = std::to_string(2 * limit * share);
-    const test::Outcome outcome = apply("seen.exr", {"--adaptation", "0.01", "--ppd", ppd, "--detail", "bilateral"});
+    const test::Outcome outcome =
+        apply("seen.exr", {"--adaptation", "0.01", "--ppd", ppd, "--detail", "bilateral"});
     EXPECT_EQ(outcome.err.find("detail (the picture holds") != std::string::npos, share < 1) << outcome.err;
     EXPECT_EQ(pixels("seen.exr") == pixels("plain.exr"), share < 1) << share;
   }
@@ -190,7 +203,8 @@ TEST_F(Plan, acuity_turns_on_where_the_picture_s_finest_detail_meets_what_the_ey
 
 TEST_F(Plan, adaptation_is_metered_the_way_it_is_asked_for) {
   const auto adaptation = [&](const char* method) {
-    const test::Outcome outcome = apply("out.exr", {"--adaptation", method, "--white-luminance", "1", "--json", "-q"});
+    const test::Outcome outcome =
+        apply("out.exr", {"--adaptation", method, "--white-luminance", "1", "--json", "-q"});
     return nlohmann::json::parse(outcome.out)["applied"]["scotopic:adaptation"].get<double>();
   };
   const double p10 = adaptation("auto:p10"), median = adaptation("auto:median"), p90 = adaptation("auto:p90");
@@ -204,7 +218,8 @@ TEST_F(Plan, adaptation_is_metered_the_way_it_is_asked_for) {
 }
 
 TEST_F(Plan, explain_tells_every_effect_with_number_threshold_and_reason) {
-  const test::Outcome outcome = test::run_program({"explain", path("in.exr"), "--adaptation", "0.01", "--ppd", "60", "--json"});
+  const test::Outcome outcome =
+      test::run_program({"explain", path("in.exr"), "--adaptation", "0.01", "--ppd", "60", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const nlohmann::json report = nlohmann::json::parse(outcome.out);
   for (const char* effect : {"shift", "luminance", "chroma", "detail"}) {
@@ -221,7 +236,8 @@ TEST_F(Plan, explain_tells_every_effect_with_number_threshold_and_reason) {
 }
 
 TEST(ExplainConfig, tells_which_looks_do_what) {
-  const test::Outcome outcome = test::run_program({"explain", SCOTOPIC_SOURCE_DIR "/ocio_config/config.ocio", "--json"});
+  const test::Outcome outcome =
+      test::run_program({"explain", SCOTOPIC_SOURCE_DIR "/ocio_config/config.ocio", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   std::map<std::string, std::string> does;
   const nlohmann::json report = nlohmann::json::parse(outcome.out);
@@ -229,7 +245,8 @@ TEST(ExplainConfig, tells_which_looks_do_what) {
   EXPECT_EQ(does["Photopic"], "nothing");
   EXPECT_EQ(does["Chroma 0.01 nit (global weight matrix)"], "a matrix");
   EXPECT_NE(does["Mesopic 0.01 nit (full moon)"].find("a 3D LUT of 33 nodes a side"), std::string::npos);
-  EXPECT_EQ(does["Photopic 10 nit (lamplit room)"].rfind("nothing", 0), 0u) << does["Photopic 10 nit (lamplit room)"];
+  EXPECT_EQ(does["Photopic 10 nit (lamplit room)"].rfind("nothing", 0), 0u)
+      << does["Photopic 10 nit (lamplit room)"];
 }
 
 }  // namespace

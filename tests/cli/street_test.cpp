@@ -28,7 +28,9 @@ struct Picture {
     EXPECT_TRUE(in->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, pixels.data()));
   }
   float at(int x, int y, std::size_t c) const {
-    return pixels[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) + c];
+    return pixels[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                       static_cast<std::size_t>(x)) +
+                  c];
   }
   double luminance(int x, int y) const {
     return 0.2126 * double{at(x, y, 0)} + 0.7152 * double{at(x, y, 1)} + 0.0722 * double{at(x, y, 2)};
@@ -56,8 +58,10 @@ TEST(Street, has_the_luminances_that_are_written_of_it) {
   const Picture picture(street);
   ASSERT_EQ(picture.width, 1280);
   ASSERT_EQ(picture.height, 720);
-  for (const Region& r : {ground, Region{"lawn", 1000, 525, 1270, 565, 0.01, 0.03}, Region{"sky", 1000, 40, 1270, 200, 0.005, 0.015},
-                          Region{"window", 68, 165, 100, 190, 59, 61}, Region{"wall", 20, 300, 200, 480, 0.05, 0.12}}) {
+  for (const Region& r :
+       {ground, Region{"lawn", 1000, 525, 1270, 565, 0.01, 0.03},
+        Region{"sky", 1000, 40, 1270, 200, 0.005, 0.015}, Region{"window", 68, 165, 100, 190, 59, 61},
+        Region{"wall", 20, 300, 200, 480, 0.05, 0.12}}) {
     const double found = median(r, [&](int x, int y) { return 10 * picture.luminance(x, y); });
     EXPECT_TRUE(found > r.low && found < r.high) << r.name << ' ' << found;
   }

@@ -1,5 +1,5 @@
-// Whole images of hard pixels through a shipped look, by OCIO's CPU and GPU (GLSL) renderers: one bad pixel stays one.
-// The operator itself on such images: tests/properties/hard_images_test.cpp.
+// Whole images of hard pixels through a shipped look, by OCIO's CPU and GPU (GLSL) renderers: one bad pixel
+// stays one. The operator itself on such images: tests/properties/hard_images_test.cpp.
 #include <Imath/half.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +16,8 @@ namespace OCIO = OCIO_NAMESPACE;
 namespace scotopic::test {
 namespace {
 
-// Powers of two: where they are not, ocioconvert's texture coordinates round, and pixels mix a millionth of their neighbours.
+// Powers of two: where they are not, ocioconvert's texture coordinates round, and pixels mix a millionth of
+// their neighbours.
 constexpr int width = 256, night_rows = 64;
 constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
 
@@ -32,7 +33,8 @@ Pixels night() {
       const auto noise = static_cast<float>((x * 7919 + y * 104729) % 97 - 48) / 4800;
       float rgb[3] = {0.01f + noise, 0.02f - noise, 0.015f + noise / 2};
       if (std::abs(std::hypot(x % 64 - 32, y - 32) - 20) < 1) {
-        const float bad[4][3] = {{nan, 0.1f, 0.2f}, {inf, -inf, 0.1f}, {1e38f, -1e38f, 1}, {-1e38f, -1e38f, -1e38f}};
+        const float bad[4][3] = {
+            {nan, 0.1f, 0.2f}, {inf, -inf, 0.1f}, {1e38f, -1e38f, 1}, {-1e38f, -1e38f, -1e38f}};
         for (int c = 0; c < 3; ++c) rgb[c] = bad[x / 64][c];
       }
       if (x % 64 == 32 && y == 32) rgb[0] = 5000, rgb[1] = 3000, rgb[2] = 1000;
@@ -45,8 +47,8 @@ Pixels night() {
 Pixels every_half() {
   Pixels pixels;
   for (std::size_t i = 0; i < 65536; ++i)
-    pixels.insert(pixels.end(),
-                  {half_of(i), half_of(i * 7919 + 3), half_of(i * 104729 + 11), static_cast<float>(i % 65) / 64});
+    pixels.insert(pixels.end(), {half_of(i), half_of(i * 7919 + 3), half_of(i * 104729 + 11),
+                                 static_cast<float>(i % 65) / 64});
   return pixels;
 }
 
@@ -55,11 +57,13 @@ const std::vector<Pixels>& hard_images() {
   return images;
 }
 
-// Of a pixel's largest component. OpenColorIO 2.1 gives the same bits for a pixel in a row and alone; 2.6, where some
-// pixels of a row go through vector code, differs by up to 7e-6 in its lossless arithmetic.
+// Of a pixel's largest component. OpenColorIO 2.1 gives the same bits for a pixel in a row and alone; 2.6,
+// where some pixels of a row go through vector code, differs by up to 7e-6 in its lossless arithmetic.
 constexpr float vector_code = 1e-5f;
 
-bool finite(const float* rgb) { return std::isfinite(rgb[0]) && std::isfinite(rgb[1]) && std::isfinite(rgb[2]); }
+bool finite(const float* rgb) {
+  return std::isfinite(rgb[0]) && std::isfinite(rgb[1]) && std::isfinite(rgb[2]);
+}
 
 Pixels through(const OCIO::ConstCPUProcessorRcPtr& look, Pixels pixels, int across) {
   OCIO::PackedImageDesc image(pixels.data(), across, static_cast<long>(pixels.size()) / 4 / across, 4);
@@ -95,18 +99,20 @@ TEST(HardLooks, on_the_cpu_every_pixel_comes_out_finite_as_if_alone_and_alpha_ke
 TEST(HardLooks, infinity_is_taken_for_the_largest_half_and_what_is_darker_than_black_for_no_light) {
   for (const std::string& look : {street, moon}) {
     const auto processor = cpu_look(look);
-    const Pixels out = through(processor, {inf, 0.1f, 0.1f, 1, 65504, 0.1f, 0.1f, 1, 1e38f, 0.1f, 0.1f, 1}, 1);
+    const Pixels out =
+        through(processor, {inf, 0.1f, 0.1f, 1, 65504, 0.1f, 0.1f, 1, 1e38f, 0.1f, 0.1f, 1}, 1);
     for (std::size_t c = 0; c < 3; ++c) {
       EXPECT_NEAR(out[c], out[4 + c], vector_code * 65504);
       EXPECT_NEAR(out[8 + c], out[4 + c], vector_code * 65504);
     }
-    const Pixels dark = through(processor, {-inf, -inf, -inf, 1, -1e38f, -1e38f, -1e38f, 1, -1, -1, -1, 1}, 1);
+    const Pixels dark =
+        through(processor, {-inf, -inf, -inf, 1, -1e38f, -1e38f, -1e38f, 1, -1, -1, -1, 1}, 1);
     for (std::size_t i = 0; i < dark.size(); ++i) EXPECT_NEAR(dark[i], i % 4 == 3 ? 1 : 0, 1e-6) << i;
   }
 }
 
-// ocioconvert --gpu reads the picture through a bilinear texture filter: 0 times NaN is NaN, so that the three pixels
-// before a bad one are bad when the look gets them.
+// ocioconvert --gpu reads the picture through a bilinear texture filter: 0 times NaN is NaN, so that the
+// three pixels before a bad one are bad when the look gets them.
 bool sound_to_the_filter(const Pixels& in, std::size_t pixel) {
   const std::size_t rows = in.size() / 4 / width, x = pixel % width, y = pixel / width;
   for (const std::size_t at_y : {y, std::min(y + 1, rows - 1)})
@@ -119,8 +125,8 @@ void expect_the_gpu_to_follow(const std::string& look, const Pixels& in) {
   const std::string file = work_folder() + "/hard.exr", seen = work_folder() + "/hard_gpu.exr";
   write_pixels(file, in, width);
   const Finished result = run("export OCIO=" + quoted(config_file()) +
-                              "; LIBGL_ALWAYS_SOFTWARE=1 xvfb-run -a ocioconvert --gpu " + quoted(file) + " " +
-                              quoted(linear) + " " + quoted(seen) + " " + quoted(look));
+                              "; LIBGL_ALWAYS_SOFTWARE=1 xvfb-run -a ocioconvert --gpu " + quoted(file) +
+                              " " + quoted(linear) + " " + quoted(seen) + " " + quoted(look));
   ASSERT_EQ(result.exit_code, 0) << result.said;
   const Pixels got = read_pixels(seen), cpu = through(cpu_look(look), in, width);
   ASSERT_EQ(got.size(), in.size());
@@ -134,7 +140,8 @@ void expect_the_gpu_to_follow(const std::string& look, const Pixels& in) {
     double size = 1e-6, difference = 0;
     for (std::size_t c = 0; c < 3; ++c) {
       size = std::max(size, std::abs(static_cast<double>(cpu[i + c])));
-      difference = std::max(difference, std::abs(static_cast<double>(got[i + c]) - static_cast<double>(cpu[i + c])));
+      difference =
+          std::max(difference, std::abs(static_cast<double>(got[i + c]) - static_cast<double>(cpu[i + c])));
     }
     worst = std::max(worst, difference / size);
   }

@@ -259,9 +259,8 @@ class Blender : public testing::Test {
 
 TEST_F(Blender, shows_the_look_as_view) {
   const std::string file = output("view.png");
-  expect_picture(
-      "s.view_settings.view_transform = '" + night + "'\ni.save_render('" + file + "', scene=s)\n", file,
-      expected(view_transform(srgb, night)));
+  expect_picture("s.view_settings.view_transform = '" + night + "'\ni.save_render('" + file + "', scene=s)\n",
+                 file, expected(view_transform(srgb, night)));
 }
 
 TEST_F(Blender, composites_through_the_look_s_colour_space) {

@@ -1,5 +1,5 @@
-// Camera and grading encodings: codes as their makers published them (some recalled; all are held to the formulas too),
-// the makers' formulas in long double, primaries, round trips.
+// Camera and grading encodings: codes as their makers published them (some recalled; all are held to the
+// formulas too), the makers' formulas in long double, primaries, round trips.
 #include <gtest/gtest.h>
 
 #include <algorithm>

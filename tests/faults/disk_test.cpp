@@ -38,7 +38,9 @@ TEST(Disk, full_at_every_write) {
   sweep_all({"disk full (ENOSPC) from the k-th write on", "write", number(ENOSPC), true, {5}}, old_file);
 }
 
-TEST(Disk, full_once) { sweep_all({"disk full at the k-th write only", "write", number(ENOSPC), false, {5}}, old_file, 8, 1); }
+TEST(Disk, full_once) {
+  sweep_all({"disk full at the k-th write only", "write", number(ENOSPC), false, {5}}, old_file, 8, 1);
+}
 
 TEST(Disk, broken_at_every_write) {
   sweep_all({"EIO at the k-th write", "write", number(EIO), false, {5}}, old_file, 8, 1);
@@ -80,7 +82,8 @@ TEST(Disk, no_name_can_be_given) {
 }
 
 TEST(Disk, no_name_can_be_changed) {
-  sweep_all({"the k-th rename fails (EIO)", "rename", number(EIO), false, {5}}, "exit 5, each file old or new", 4, 3);
+  sweep_all({"the k-th rename fails (EIO)", "rename", number(EIO), false, {5}},
+            "exit 5, each file old or new", 4, 3);
 }
 
 TEST(Disk, no_folder_can_be_made) {
@@ -93,8 +96,12 @@ TEST(Disk, killed_before_every_change) {
 }
 
 TEST(Disk, told_to_end_at_every_change) {
-  for (const auto& [name, signal] : {std::pair{"SIGTERM", SIGTERM}, {"SIGINT", SIGINT}, {"SIGHUP", SIGHUP}, {"SIGPIPE", SIGPIPE}})
-    sweep_all({std::string(name) + " at the k-th change to the disk", "event", "signal" + number(signal), false,
+  for (const auto& [name, signal] :
+       {std::pair{"SIGTERM", SIGTERM}, {"SIGINT", SIGINT}, {"SIGHUP", SIGHUP}, {"SIGPIPE", SIGPIPE}})
+    sweep_all({std::string(name) + " at the k-th change to the disk",
+               "event",
+               "signal" + number(signal),
+               false,
                {128 + signal, 0}},
               "exit 128+n, each file old or new, nothing else", signal == SIGTERM ? 12 : 4, 1);
 }

@@ -1,5 +1,5 @@
-// What the program does not do: start programs, talk to networks, write elsewhere, heed unlisted variables. And
-// that it looks before it reads.
+// What the program does not do: start programs, talk to networks, write elsewhere, heed unlisted variables.
+// And that it looks before it reads.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,17 +43,19 @@ TEST(House, no_verb_starts_a_program_or_opens_a_connection) {
     jailed.jail = true;
     fs::remove(jailed.log);
     const Ended ended = run(jailed);
-    ASSERT_EQ(ended.err.find("no seccomp here"), std::string::npos) << "this system cannot hold a program in a jail";
+    ASSERT_EQ(ended.err.find("no seccomp here"), std::string::npos)
+        << "this system cannot hold a program in a jail";
     ++seen.tries, ++seen.codes[ended.exit_code];
     EXPECT_EQ(ended.exit_code, 0) << v.name << ": " << ended.err;
-    EXPECT_EQ(logged(jailed.log, "forbidden system").size() + logged(jailed.log, "forbidden popen").size(), 0u);
+    EXPECT_EQ(logged(jailed.log, "forbidden system").size() + logged(jailed.log, "forbidden popen").size(),
+              0u);
     // Nothing is opened to be written but in the folder of the output.
     for (const std::string& file : logged(jailed.log, "open"))
       EXPECT_TRUE(file.rfind(folder, 0) == 0 || file == "/dev/null" || file.rfind("/proc/self/fd/", 0) == 0)
           << v.name << ": " << file;
   }
-  tally("every writing verb where the kernel kills whoever forks, executes, opens a socket", seen.tries, "exit 0",
-        text_of(seen));
+  tally("every writing verb where the kernel kills whoever forks, executes, opens a socket", seen.tries,
+        "exit 0", text_of(seen));
 }
 
 TEST(House, the_jail_kills) {
@@ -62,7 +64,8 @@ TEST(House, the_jail_kills) {
   jailed.arguments = {"--version"};
   jailed.jail = true;
   EXPECT_EQ(run(jailed).exit_code, 0);
-  const std::string command = "LD_PRELOAD=" SCOTOPIC_FAULT_SHIM " FAULT_JAIL=1 sh -c 'true | true' 2>/dev/null";
+  const std::string command =
+      "LD_PRELOAD=" SCOTOPIC_FAULT_SHIM " FAULT_JAIL=1 sh -c 'true | true' 2>/dev/null";
   EXPECT_NE(std::system(command.c_str()), 0);
 }
 
@@ -82,11 +85,13 @@ std::set<std::string> variables_asked_for(const WritingVerb& v) {
 bool may_have_an_effect(const std::string& name) {
   const bool ocio = name == "OCIO" || name.rfind("OCIO_", 0) == 0;
   const bool stripped = name == "OCIO_LOGGING_LEVEL" || name == "OCIO_OPTIMIZATION_FLAGS";
-  return (ocio && !stripped) || name.rfind("SCOTOPIC_", 0) == 0 || name.rfind("LD_", 0) == 0 || name == "PATH";
+  return (ocio && !stripped) || name.rfind("SCOTOPIC_", 0) == 0 || name.rfind("LD_", 0) == 0 ||
+         name == "PATH";
 }
 
 TEST(House, whatever_variable_a_library_asks_for_has_no_effect) {
-  // Which they are is the libraries' business, and changes with their releases: each is set to what switches most on.
+  // Which they are is the libraries' business, and changes with their releases: each is set to what switches
+  // most on.
   long set = 0;
   for (const WritingVerb& v : writing_verbs()) {
     if (v.slow && v.name != "bake clf") continue;
@@ -111,10 +116,18 @@ TEST(House, variables_of_libraries_have_no_effect) {
   subject.reset();
   Attempt odd;
   odd.arguments = arguments_of(v, subject.folder);
-  odd.environment = {"OCIO_LOGGING_LEVEL=debug",   "OCIO_OPTIMIZATION_FLAGS=0", "OPENIMAGEIO_OPTIONS=log_times=1",
-                     "EXPAT_MALLOC_DEBUG=2",       "OMP_DISPLAY_ENV=true",
-                     "OPENIMAGEIO_DEBUG=9",        "OPENIMAGEIO_LOG_TIMES=1",    "OIIO_LIBRARY_PATH=" + subject.folder,
-                     "LC_ALL=de_DE.UTF-8",         "LANG=tr_TR.UTF-8",           "TMPDIR=/nonexistent", "HOME=/nonexistent"};
+  odd.environment = {"OCIO_LOGGING_LEVEL=debug",
+                     "OCIO_OPTIMIZATION_FLAGS=0",
+                     "OPENIMAGEIO_OPTIONS=log_times=1",
+                     "EXPAT_MALLOC_DEBUG=2",
+                     "OMP_DISPLAY_ENV=true",
+                     "OPENIMAGEIO_DEBUG=9",
+                     "OPENIMAGEIO_LOG_TIMES=1",
+                     "OIIO_LIBRARY_PATH=" + subject.folder,
+                     "LC_ALL=de_DE.UTF-8",
+                     "LANG=tr_TR.UTF-8",
+                     "TMPDIR=/nonexistent",
+                     "HOME=/nonexistent"};
   const Ended ended = run(odd);
   EXPECT_EQ(ended.exit_code, 0);
   EXPECT_EQ(ended.err + ended.out, "");
@@ -161,12 +174,10 @@ TEST(House, it_looks_before_it_reads) {
     std::vector<std::string> arguments;
     int code;
   };
-  for (const Order& row : {Order{{"--model", "x", "--config", "none.ocio", "-o", none}, 2},
-                           Order{{"--config", "none.ocio", "-o", none}, 6},
-                           Order{{"--colorspace", "none", "-o", none}, 6},
-                           Order{{"-o", none}, 5},
-                           Order{{"--max-pixels", "10", "-o", out}, 4},
-                           Order{{"-o", out}, 3}}) {
+  for (const Order& row :
+       {Order{{"--model", "x", "--config", "none.ocio", "-o", none}, 2},
+        Order{{"--config", "none.ocio", "-o", none}, 6}, Order{{"--colorspace", "none", "-o", none}, 6},
+        Order{{"-o", none}, 5}, Order{{"--max-pixels", "10", "-o", out}, 4}, Order{{"-o", out}, 3}}) {
     Attempt two;
     two.arguments = {"apply", cut, "--adaptation", "1", "-q"};
     two.arguments.insert(two.arguments.end(), row.arguments.begin(), row.arguments.end());

@@ -29,7 +29,8 @@ TEST(Reading, a_broken_disk_is_an_error) {
   for (const char* name : {"apply exr", "apply tiff pages", "lmsr"})
     sweep(subject_of(verb(name)), fault, long_form() ? 1000 : 30, seen);
   if (long_form()) sweep(subject_of(verb("bake into")), fault, 20, seen);
-  tally(fault.name, seen.tries, "exit 3 (5: reading back what was written, 6: config), the old file", text_of(seen));
+  tally(fault.name, seen.tries, "exit 3 (5: reading back what was written, 6: config), the old file",
+        text_of(seen));
 }
 
 TEST(Reading, parts_and_interruptions_change_nothing) {

@@ -20,7 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 float value_at(int x, int y, std::size_t channel) {
-  return 0.001f + 0.05f * static_cast<float>((x * 7 + y * 13 + static_cast<int>(channel) * 29) % 101) / 100.0f;
+  return 0.001f +
+         0.05f * static_cast<float>((x * 7 + y * 13 + static_cast<int>(channel) * 29) % 101) / 100.0f;
 }
 
 void write_exr(const std::string& file, int width, int height, const std::vector<std::string>& channels) {
@@ -60,7 +61,8 @@ void make(const std::string& name, const std::string& file) {
   if (name == "in.exr") write_exr(file, 24, 20, rgb);
   if (name == "big.exr") write_exr(file, 1024, 768, rgb);
   if (name == "spectral.exr")
-    write_exr(file, 24, 20, {"S0.400nm", "S0.450nm", "S0.500nm", "S0.550nm", "S0.600nm", "S0.650nm", "S0.700nm"});
+    write_exr(file, 24, 20,
+              {"S0.400nm", "S0.450nm", "S0.500nm", "S0.550nm", "S0.600nm", "S0.650nm", "S0.700nm"});
   if (name == "pages.tif") write_pages(file);
   if (name == "studio.ocio") {
     std::ofstream out(file);

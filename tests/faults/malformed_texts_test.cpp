@@ -26,11 +26,13 @@ std::string repeated(const std::string& text, int count) {
 }
 
 /// A config with one space more, "Odd", and more text at its end.
-std::string config(const std::string& transform, const std::string& more = "", const std::string& version = "2",
-                   const std::string& roles = "  scene_linear: Lin\n  default: Lin\n  aces_interchange: Lin\n") {
+std::string config(
+    const std::string& transform, const std::string& more = "", const std::string& version = "2",
+    const std::string& roles = "  scene_linear: Lin\n  default: Lin\n  aces_interchange: Lin\n") {
   return "ocio_profile_version: " + version + "\nsearch_path: .\nroles:\n" + roles +
          "displays:\n  D:\n    - !<View> {name: V, colorspace: Lin}\n" +
-         "colorspaces:\n  - !<ColorSpace>\n    name: Lin\n  - !<ColorSpace>\n    name: Odd\n    to_scene_reference: " +
+         "colorspaces:\n  - !<ColorSpace>\n    name: Lin\n  - !<ColorSpace>\n    name: Odd\n    "
+         "to_scene_reference: " +
          transform + "\n" + more;
 }
 
@@ -58,12 +60,20 @@ std::vector<Row> config_rows() {
       {"no roles", config(matrix(unit), "", "2", "")},
       {"no scene_linear", config(matrix(unit), "", "2", "  default: Lin\n"), 6, "scene_linear"},
       {"role of a space that is not there", config(matrix(unit), "", "2", "  scene_linear: None\n")},
-      {"no way to XYZ", config(matrix(unit), "", "2", "  scene_linear: Lin\n  default: Lin\n"), 6, "interchange"},
-      {"no spaces", "ocio_profile_version: 2\nroles:\n  scene_linear: Lin\ndisplays:\n  D:\n    - !<View> {name: V, colorspace: Lin}\n"},
-      {"no displays", "ocio_profile_version: 2\nroles:\n  scene_linear: Lin\ncolorspaces:\n  - !<ColorSpace>\n    name: Lin\n"},
+      {"no way to XYZ", config(matrix(unit), "", "2", "  scene_linear: Lin\n  default: Lin\n"), 6,
+       "interchange"},
+      {"no spaces",
+       "ocio_profile_version: 2\nroles:\n  scene_linear: Lin\ndisplays:\n  D:\n    - !<View> {name: V, "
+       "colorspace: Lin}\n"},
+      {"no displays",
+       "ocio_profile_version: 2\nroles:\n  scene_linear: Lin\ncolorspaces:\n  - !<ColorSpace>\n    name: "
+       "Lin\n"},
       {"two spaces of one name", config(matrix(unit), "  - !<ColorSpace>\n    name: Odd\n")},
       {"space without a name", config(matrix(unit), "  - !<ColorSpace>\n    family: x\n")},
-      {"view of a space that is not there", "ocio_profile_version: 2\nroles:\n  scene_linear: Lin\n  default: Lin\n  aces_interchange: Lin\ndisplays:\n  D:\n    - !<View> {name: V, colorspace: None}\ncolorspaces:\n  - !<ColorSpace>\n    name: Lin\n"},
+      {"view of a space that is not there",
+       "ocio_profile_version: 2\nroles:\n  scene_linear: Lin\n  default: Lin\n  aces_interchange: "
+       "Lin\ndisplays:\n  D:\n    - !<View> {name: V, colorspace: None}\ncolorspaces:\n  - !<ColorSpace>\n   "
+       " name: Lin\n"},
       {"unknown transform", config("!<WarpTransform> {}")},
       {"matrix of three numbers", config(matrix("1, 2, 3"))},
       {"matrix of words", config(matrix("a, b, c, d, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1"))},
@@ -73,7 +83,8 @@ std::vector<Row> config_rows() {
       {"exponent 0", config("!<ExponentTransform> {value: [0, 0, 0, 1]}")},
       {"log of base 1", config("!<LogTransform> {base: 1}")},
       {"log of base -2", config("!<LogTransform> {base: -2}")},
-      {"range inside out", config("!<RangeTransform> {min_in_value: 1, max_in_value: 0, min_out_value: 0, max_out_value: 1}")},
+      {"range inside out",
+       config("!<RangeTransform> {min_in_value: 1, max_in_value: 0, min_out_value: 0, max_out_value: 1}")},
       {"LUT that is not there", config("!<FileTransform> {src: none.clf}")},
       {"LUT without a name", config("!<FileTransform> {src: \"\"}")},
       {"LUT that is a folder", config("!<FileTransform> {src: .}")},
@@ -82,13 +93,15 @@ std::vector<Row> config_rows() {
       {"a space that leads nowhere", config("!<ColorSpaceTransform> {src: None, dst: Lin}")},
       {"a look that is not there", config("!<LookTransform> {src: Lin, dst: Lin, looks: None}")},
       {"look without a process space", config(matrix(unit), "looks:\n  - !<Look>\n    name: L\n")},
-      {"look of a space that is not there", config(matrix(unit), "looks:\n  - !<Look>\n    name: L\n    process_space: None\n")},
+      {"look of a space that is not there",
+       config(matrix(unit), "looks:\n  - !<Look>\n    name: L\n    process_space: None\n")},
       {"unknown built-in", config("!<BuiltinTransform> {style: NO_SUCH_STYLE}")},
   };
 }
 
 std::string clf(const std::string& nodes, const std::string& head = "compCLFversion=\"3\" id=\"x\"") {
-  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ProcessList " + head + ">\n" + nodes + "</ProcessList>\n";
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ProcessList " + head + ">\n" + nodes +
+         "</ProcessList>\n";
 }
 std::string lut3d(const std::string& dim, const std::string& numbers) {
   return clf("<LUT3D inBitDepth=\"32f\" outBitDepth=\"32f\"><Array dim=\"" + dim + "\">" + numbers +
@@ -110,7 +123,8 @@ struct LutRow {
 std::vector<LutRow> lut_rows() {
   std::string bomb = "<?xml version=\"1.0\"?><!DOCTYPE l [<!ENTITY a \"aaaaaaaaaa\">";
   for (char c = 'b'; c < 'l'; ++c)
-    bomb += std::string("<!ENTITY ") + c + " \"" + repeated(std::string("&") + static_cast<char>(c - 1) + ";", 10) + "\">";
+    bomb += std::string("<!ENTITY ") + c + " \"" +
+            repeated(std::string("&") + static_cast<char>(c - 1) + ";", 10) + "\">";
   bomb += "]><ProcessList id=\"x\" compCLFversion=\"3\"><Description>&k;</Description></ProcessList>";
   const std::string cube = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n";
   std::string spi;
@@ -128,12 +142,19 @@ std::vector<LutRow> lut_rows() {
       {"no nodes", "clf", clf("")},
       {"another root", "clf", "<?xml version=\"1.0\"?><Process/>\n"},
       {"no version", "clf", clf("", "id=\"x\"")},
-      {"version 9", "clf", clf("<Matrix inBitDepth=\"32f\" outBitDepth=\"32f\"><Array dim=\"3 3\">1 0 0 0 1 0 0 0 1</Array></Matrix>", "compCLFversion=\"9\" id=\"x\"")},
+      {"version 9", "clf",
+       clf("<Matrix inBitDepth=\"32f\" outBitDepth=\"32f\"><Array dim=\"3 3\">1 0 0 0 1 0 0 0 "
+           "1</Array></Matrix>",
+           "compCLFversion=\"9\" id=\"x\"")},
       {"entities of 10^10 characters", "clf", bomb},
-      {"an external entity", "clf", "<?xml version=\"1.0\"?><!DOCTYPE p [<!ENTITY x SYSTEM \"file:///etc/passwd\">]><ProcessList id=\"x\" compCLFversion=\"3\">&x;</ProcessList>"},
+      {"an external entity", "clf",
+       "<?xml version=\"1.0\"?><!DOCTYPE p [<!ENTITY x SYSTEM \"file:///etc/passwd\">]><ProcessList id=\"x\" "
+       "compCLFversion=\"3\">&x;</ProcessList>"},
       {"elements 100000 deep", "clf", "<?xml version=\"1.0\"?>" + repeated("<ProcessList>", 100000)},
       {"unknown node", "clf", clf("<Warp inBitDepth=\"32f\" outBitDepth=\"32f\"/>")},
-      {"unknown bit depth", "clf", clf("<Matrix inBitDepth=\"7\" outBitDepth=\"32f\"><Array dim=\"3 3\">1 0 0 0 1 0 0 0 1</Array></Matrix>")},
+      {"unknown bit depth", "clf",
+       clf("<Matrix inBitDepth=\"7\" outBitDepth=\"32f\"><Array dim=\"3 3\">1 0 0 0 1 0 0 0 "
+           "1</Array></Matrix>")},
       {"cube of no edge", "clf", lut3d("0 0 0 3", "")},
       {"cube of edge 1", "clf", lut3d("1 1 1 3", "0 0 0")},
       {"cube of edge 130", "clf", lut3d("130 130 130 3", "0 0 0")},
@@ -148,13 +169,21 @@ std::vector<LutRow> lut_rows() {
       {"table of length -1", "clf", lut1d("-1 3", "0 0 0")},
       {"table of 10^9 entries", "clf", lut1d("1000000000 3", "0 0 0")},
       {"table of five columns", "clf", lut1d("2 5", "0 0 0 0 0 1 1 1 1 1")},
-      {"matrix of two rows", "clf", clf("<Matrix inBitDepth=\"32f\" outBitDepth=\"32f\"><Array dim=\"2 2\">1 0 0 1</Array></Matrix>")},
-      {"matrix of too few numbers", "clf", clf("<Matrix inBitDepth=\"32f\" outBitDepth=\"32f\"><Array dim=\"3 3\">1 0 0</Array></Matrix>")},
-      {"range inside out", "clf", clf("<Range inBitDepth=\"32f\" outBitDepth=\"32f\"><minInValue>1</minInValue><maxInValue>0</maxInValue><minOutValue>0</minOutValue><maxOutValue>1</maxOutValue></Range>")},
-      {"range of words", "clf", clf("<Range inBitDepth=\"32f\" outBitDepth=\"32f\"><minInValue>dusk</minInValue><minOutValue>0</minOutValue></Range>")},
+      {"matrix of two rows", "clf",
+       clf("<Matrix inBitDepth=\"32f\" outBitDepth=\"32f\"><Array dim=\"2 2\">1 0 0 1</Array></Matrix>")},
+      {"matrix of too few numbers", "clf",
+       clf("<Matrix inBitDepth=\"32f\" outBitDepth=\"32f\"><Array dim=\"3 3\">1 0 0</Array></Matrix>")},
+      {"range inside out", "clf",
+       clf("<Range inBitDepth=\"32f\" "
+           "outBitDepth=\"32f\"><minInValue>1</minInValue><maxInValue>0</maxInValue><minOutValue>0</"
+           "minOutValue><maxOutValue>1</maxOutValue></Range>")},
+      {"range of words", "clf",
+       clf("<Range inBitDepth=\"32f\" "
+           "outBitDepth=\"32f\"><minInValue>dusk</minInValue><minOutValue>0</minOutValue></Range>")},
       {"unknown log", "clf", clf("<Log inBitDepth=\"32f\" outBitDepth=\"32f\" style=\"log7\"/>")},
       {"CTF: empty", "ctf", ""},
-      {"CTF: version 99", "ctf", "<?xml version=\"1.0\"?><ProcessList version=\"99\" id=\"x\"></ProcessList>"},
+      {"CTF: version 99", "ctf",
+       "<?xml version=\"1.0\"?><ProcessList version=\"99\" id=\"x\"></ProcessList>"},
       {"cube: empty", "cube", ""},
       {"cube: no size", "cube", cube},
       {"cube: size 1", "cube", "LUT_3D_SIZE 1\n0 0 0\n"},
@@ -174,7 +203,8 @@ std::vector<LutRow> lut_rows() {
       {"spi3d: a node before the cube", "spi3d", "SPILUT 1.0\n3 3\n2 2 2\n-1 0 0 0 0 0\n" + spi},
       {"spi1d: empty", "spi1d", ""},
       {"spi1d: length 0", "spi1d", "Version 1\nFrom 0.0 1.0\nLength 0\nComponents 1\n{\n}\n"},
-      {"spi1d: length 10^10", "spi1d", "Version 1\nFrom 0.0 1.0\nLength 10000000000\nComponents 1\n{\n0\n}\n"},
+      {"spi1d: length 10^10", "spi1d",
+       "Version 1\nFrom 0.0 1.0\nLength 10000000000\nComponents 1\n{\n0\n}\n"},
       {"spi1d: too few lines", "spi1d", "Version 1\nFrom 0.0 1.0\nLength 4\nComponents 1\n{\n0\n1\n}\n"},
       {"spi1d: no components", "spi1d", "Version 1\nFrom 0.0 1.0\nLength 2\nComponents 0\n{\n0\n1\n}\n"},
       {"unknown extension, no LUT", "lut", "hello, night\n"},
@@ -229,21 +259,25 @@ std::string seen(long wrong) { return wrong == 0 ? "as expected" : "WRONG " + st
 
 TEST_F(MalformedTexts, configs) {
   write("good.ocio", config(matrix(unit)));
-  EXPECT_EQ(refused({"--config", folder_ + "/good.ocio", "--colorspace", "Odd"}, 0, ""), "wrote") << "without a fault";
+  EXPECT_EQ(refused({"--config", folder_ + "/good.ocio", "--colorspace", "Odd"}, 0, ""), "wrote")
+      << "without a fault";
   long wrong = 0;
   for (const Row& row : config_rows()) {
     write("bad.ocio", row.text);
-    const std::string broken = refused({"--config", folder_ + "/bad.ocio", "--colorspace", "Odd"}, row.code, row.says);
+    const std::string broken =
+        refused({"--config", folder_ + "/bad.ocio", "--colorspace", "Odd"}, row.code, row.says);
     wrong += !broken.empty();
     EXPECT_EQ(broken, "") << row.fault;
   }
-  tally("malformed configs, one fault each", static_cast<long>(config_rows().size()), "exit 6, one line", seen(wrong));
+  tally("malformed configs, one fault each", static_cast<long>(config_rows().size()), "exit 6, one line",
+        seen(wrong));
 }
 
 TEST_F(MalformedTexts, luts) {
   write("lut.clf", lut3d("2 2 2 3", cube_numbers));
   write("luts.ocio", config("!<FileTransform> {src: lut.clf}"));
-  EXPECT_EQ(refused({"--config", folder_ + "/luts.ocio", "--colorspace", "Odd"}, 0, ""), "wrote") << "without a fault";
+  EXPECT_EQ(refused({"--config", folder_ + "/luts.ocio", "--colorspace", "Odd"}, 0, ""), "wrote")
+      << "without a fault";
   long wrong = 0;
   for (const LutRow& row : lut_rows()) {
     const std::string name = std::string("bad.") + row.extension;
@@ -253,15 +287,19 @@ TEST_F(MalformedTexts, luts) {
     wrong += !broken.empty();
     EXPECT_EQ(broken, "") << row.fault;
   }
-  tally("malformed LUTs, one fault each", static_cast<long>(lut_rows().size()), "exit 6, one line", seen(wrong));
+  tally("malformed LUTs, one fault each", static_cast<long>(lut_rows().size()), "exit 6, one line",
+        seen(wrong));
 }
 
 TEST_F(MalformedTexts, sizes_over_the_limit) {
   write("lut.clf", lut3d("2 2 2 3", cube_numbers));
   write("luts.ocio", config("!<FileTransform> {src: lut.clf}"));
   const std::string luts = folder_ + "/luts.ocio";
-  EXPECT_EQ(refused({"--config", luts, "--colorspace", "Odd", "--max-lut-size", "100"}, 4, "--max-lut-size"), "");
-  EXPECT_EQ(refused({"--config", luts, "--colorspace", "Odd", "--max-config-size", "100"}, 4, "--max-config-size"), "");
+  EXPECT_EQ(refused({"--config", luts, "--colorspace", "Odd", "--max-lut-size", "100"}, 4, "--max-lut-size"),
+            "");
+  EXPECT_EQ(
+      refused({"--config", luts, "--colorspace", "Odd", "--max-config-size", "100"}, 4, "--max-config-size"),
+      "");
   EXPECT_EQ(refused({"--max-memory", "1000"}, 4, "--max-memory"), "");
 }
 
@@ -273,8 +311,8 @@ TEST_F(MalformedTexts, spectra) {
     wrong += !broken.empty();
     EXPECT_EQ(broken, "") << row.fault;
   }
-  tally("malformed spectra, one fault each", static_cast<long>(spectrum_rows().size()), "exit 3 (4: too large)",
-        seen(wrong));
+  tally("malformed spectra, one fault each", static_cast<long>(spectrum_rows().size()),
+        "exit 3 (4: too large)", seen(wrong));
 }
 
 }  // namespace

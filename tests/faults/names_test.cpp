@@ -14,12 +14,43 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<std::string> hostile_names() {
-  std::vector<std::string> names = {"with space",  " leading", "trailing ", "it's", "say \"night\"", "back\\slash",
-                                    "new\nline",   "-leading", "--help",    "%d",   "%s%n",          "100%",
-                                    "$(reboot)",   "`reboot`", "$HOME",     "*",    "?",             "[a-z]",
-                                    "a;b",         "a&b",      "a|b",       "<a>",  "~",             "#",
-                                    "\xff\xfe\x80", "\x1b[31m", "\xc2\x9b" "31m", "\xf0\x9f\x8c\x99", "tab\there", "{0}",
-                                    "...",         ".hidden",  "a=b",       ":",    "name.exr",      "\xe2\x80\xae"};
+  std::vector<std::string> names = {"with space",
+                                    " leading",
+                                    "trailing ",
+                                    "it's",
+                                    "say \"night\"",
+                                    "back\\slash",
+                                    "new\nline",
+                                    "-leading",
+                                    "--help",
+                                    "%d",
+                                    "%s%n",
+                                    "100%",
+                                    "$(reboot)",
+                                    "`reboot`",
+                                    "$HOME",
+                                    "*",
+                                    "?",
+                                    "[a-z]",
+                                    "a;b",
+                                    "a&b",
+                                    "a|b",
+                                    "<a>",
+                                    "~",
+                                    "#",
+                                    "\xff\xfe\x80",
+                                    "\x1b[31m",
+                                    "\xc2\x9b"
+                                    "31m",
+                                    "\xf0\x9f\x8c\x99",
+                                    "tab\there",
+                                    "{0}",
+                                    "...",
+                                    ".hidden",
+                                    "a=b",
+                                    ":",
+                                    "name.exr",
+                                    "\xe2\x80\xae"};
   names.push_back(std::string(251, 'n'));
   return names;
 }
@@ -63,8 +94,10 @@ TEST_F(Names, any_name_can_be_read_and_written) {
     fs::remove(folder_ + "/" + in);
     fs::remove(folder_ + "/" + out);
   }
-  tally("hostile names, read and written", static_cast<long>(hostile_names().size()), "exit 0, the same bytes",
-        wrong == 0 ? "exit 0 (" + std::to_string(hostile_names().size()) + ")" : "WRONG " + std::to_string(wrong));
+  tally("hostile names, read and written", static_cast<long>(hostile_names().size()),
+        "exit 0, the same bytes",
+        wrong == 0 ? "exit 0 (" + std::to_string(hostile_names().size()) + ")"
+                   : "WRONG " + std::to_string(wrong));
 }
 
 TEST_F(Names, any_name_is_said_in_one_line_of_plain_characters) {
@@ -83,19 +116,22 @@ TEST_F(Names, any_name_is_said_in_one_line_of_plain_characters) {
     }
   tally("hostile names that are not there", 2 * static_cast<long>(hostile_names().size()),
         "exit 3, one line without control characters",
-        wrong == 0 ? "exit 3 (" + std::to_string(2 * hostile_names().size()) + ")" : "WRONG " + std::to_string(wrong));
+        wrong == 0 ? "exit 3 (" + std::to_string(2 * hostile_names().size()) + ")"
+                   : "WRONG " + std::to_string(wrong));
 }
 
 TEST_F(Names, a_name_too_long_is_known_before_the_work) {
   fs::copy_file(input("in.exr"), folder_ + "/in.exr");
-  const Ended ended = in_folder({"apply", "in.exr", "-o", std::string(252, 'n') + ".exr", "--adaptation", "0.1"});
+  const Ended ended =
+      in_folder({"apply", "in.exr", "-o", std::string(252, 'n') + ".exr", "--adaptation", "0.1"});
   EXPECT_EQ(broken_report(ended, {5}), "");
   EXPECT_NE(ended.err.find("File name too long"), std::string::npos) << ended.err;
 }
 
 TEST_F(Names, luts_and_configs_may_be_called_anything) {
   for (const std::string& name : {std::string("moon light $(x) %d"), std::string("-m'\"\n")}) {
-    const Ended lut = in_folder({"bake", "--adaptation", "0.1", "--size", "17", "-q", "--output=" + name + ".clf"});
+    const Ended lut =
+        in_folder({"bake", "--adaptation", "0.1", "--size", "17", "-q", "--output=" + name + ".clf"});
     EXPECT_EQ(lut.exit_code, 0) << lut.err;
     EXPECT_TRUE(fs::exists(folder_ + "/" + name + ".clf"));
     const Ended config = in_folder({"bake", "--adaptation", "0.1", "--size", "17", "-q", "--config=" + name});
@@ -124,9 +160,15 @@ TEST_F(Names, devices_folders_pipes_and_links) {
     EXPECT_EQ(broken_report(ended, {3}), "") << in;
   }
   for (const char* config : {"dir.exr", "pipe.exr", "null.exr", "/dev/zero"}) {
-    EXPECT_EQ(broken_report(in_folder({"apply", "in.exr", "-o", "out.exr", "--adaptation", "1", "--config", config}), {6}), "");
+    EXPECT_EQ(
+        broken_report(
+            in_folder({"apply", "in.exr", "-o", "out.exr", "--adaptation", "1", "--config", config}), {6}),
+        "");
     EXPECT_EQ(broken_report(in_folder({"check", config}), {3}), "");
-    EXPECT_EQ(broken_report(in_folder({"apply", "in.exr", "-o", "out.exr", "--adaptation", "1", "--illuminant", config}), {3}), "");
+    EXPECT_EQ(broken_report(in_folder({"apply", "in.exr", "-o", "out.exr", "--adaptation", "1",
+                                       "--illuminant", config}),
+                            {3}),
+              "");
   }
   // A link whose target is not there yet stays one.
   const Ended ended = in_folder({"apply", "in.exr", "-o", "dangling.exr", "--adaptation", "0.1", "-q"});

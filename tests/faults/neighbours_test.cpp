@@ -1,5 +1,5 @@
-// The same faults, and what the neighbours do: no test of ours, but what docs/faults.md puts beside it. Long form
-// only.
+// The same faults, and what the neighbours do: no test of ours, but what docs/faults.md puts beside it. Long
+// form only.
 #include <gtest/gtest.h>
 
 #include <unistd.h>
@@ -26,22 +26,23 @@ struct Neighbour {
 const std::string config = std::string(SCOTOPIC_SOURCE_DIR) + "/ocio_config/config.ocio";
 
 std::vector<Neighbour> neighbours() {
-  return {{"oiiotool", "/usr/bin/oiiotool", {"@/in.exr", "-o", "@/out.exr"}, "out.exr"},
-          {"oiiotool (TIFF)", "/usr/bin/oiiotool", {"@/in.exr", "-o", "@/out.tif"}, "out.tif"},
-          {"ocioconvert",
-           "/usr/bin/ocioconvert",
-           {"@/in.exr", "ACEScg", "@/out.exr", "ACES2065-1"},
-           "out.exr"},
-          {"scotopic apply", SCOTOPIC_PROGRAM, {"apply", "@/in.exr", "-o", "@/out.exr", "--adaptation", "0.1", "-q"}, "out.exr"},
-          {"scotopic bake",
-           SCOTOPIC_PROGRAM,
-           {"bake", "--adaptation", "0.1", "--colorspace", "ACEScct", "--size", "17", "-o", "@/out.cube", "-q"},
-           "out.cube"},
-          {"ociobakelut",
-           "/usr/bin/ociobakelut",
-           {"--iconfig", config, "--inputspace", "ACEScct", "--outputspace", "sRGB - Display", "--format",
-            "iridas_cube", "--cubesize", "17", "@/out.cube"},
-           "out.cube"}};
+  return {
+      {"oiiotool", "/usr/bin/oiiotool", {"@/in.exr", "-o", "@/out.exr"}, "out.exr"},
+      {"oiiotool (TIFF)", "/usr/bin/oiiotool", {"@/in.exr", "-o", "@/out.tif"}, "out.tif"},
+      {"ocioconvert", "/usr/bin/ocioconvert", {"@/in.exr", "ACEScg", "@/out.exr", "ACES2065-1"}, "out.exr"},
+      {"scotopic apply",
+       SCOTOPIC_PROGRAM,
+       {"apply", "@/in.exr", "-o", "@/out.exr", "--adaptation", "0.1", "-q"},
+       "out.exr"},
+      {"scotopic bake",
+       SCOTOPIC_PROGRAM,
+       {"bake", "--adaptation", "0.1", "--colorspace", "ACEScct", "--size", "17", "-o", "@/out.cube", "-q"},
+       "out.cube"},
+      {"ociobakelut",
+       "/usr/bin/ociobakelut",
+       {"--iconfig", config, "--inputspace", "ACEScct", "--outputspace", "sRGB - Display", "--format",
+        "iridas_cube", "--cubesize", "17", "@/out.cube"},
+       "out.cube"}};
 }
 
 struct Counted {
@@ -52,7 +53,8 @@ class Neighbours : public ::testing::TestWithParam<Neighbour> {
  protected:
   void SetUp() override {
     if (!long_form()) GTEST_SKIP() << "only in the long form (SCOTOPIC_FAULTS=long)";
-    if (access(GetParam().program.c_str(), X_OK) != 0) GTEST_SKIP() << GetParam().program << " is not installed";
+    if (access(GetParam().program.c_str(), X_OK) != 0)
+      GTEST_SKIP() << GetParam().program << " is not installed";
     folder_ = work_folder("neighbour");
     reset();
     Attempt clean = run_of();
@@ -94,8 +96,8 @@ class Neighbours : public ::testing::TestWithParam<Neighbour> {
     out.lied += !whole && ended.exit_code == 0;
     out.crashed += ended.exit_code == 134 || ended.exit_code == 139;
   }
-  /// A disk that is full after a share of the file; the system's own stdio buffers lie between, so this is done
-  /// by a limit on the file's size.
+  /// A disk that is full after a share of the file; the system's own stdio buffers lie between, so this is
+  /// done by a limit on the file's size.
   Counted full_disk() const {
     Counted out;
     for (int i = 0; i < 50; ++i) {
@@ -128,10 +130,11 @@ class Neighbours : public ::testing::TestWithParam<Neighbour> {
   }
   void say(const std::string& fault, const Counted& c) const {
     tally(GetParam().name + ": " + fault, c.tries, "-",
-          c.tries == 0 ? "no such call"
-                       : "old file kept " + std::to_string(c.kept) + ", whole new file " + std::to_string(c.whole) +
-                             ", neither " + std::to_string(c.lost) + "; exit 0 without a whole file " +
-                             std::to_string(c.lied) + "; crashed " + std::to_string(c.crashed));
+          c.tries == 0
+              ? "no such call"
+              : "old file kept " + std::to_string(c.kept) + ", whole new file " + std::to_string(c.whole) +
+                    ", neither " + std::to_string(c.lost) + "; exit 0 without a whole file " +
+                    std::to_string(c.lied) + "; crashed " + std::to_string(c.crashed));
   }
 
   std::string folder_, whole_;

@@ -22,13 +22,17 @@ const WritingVerb& verb(const std::string& name) {
 TEST(Memory, the_kth_allocation_fails) {
   if (!long_form()) GTEST_SKIP() << "NOTICE: only in the long form (scripts/faults.sh)";
   for (const bool on : {false, true}) {
-    Fault fault = {on ? "no memory from the k-th allocation on" : "the k-th allocation fails", "malloc",
-                   std::to_string(ENOMEM), on, {0, 3, 4, 5, 6, 70}};
+    Fault fault = {on ? "no memory from the k-th allocation on" : "the k-th allocation fails",
+                   "malloc",
+                   std::to_string(ENOMEM),
+                   on,
+                   {0, 3, 4, 5, 6, 70}};
     Seen seen;
     for (const char* name : {"apply exr", "lmsr"}) sweep(subject_of(verb(name)), fault, 500, seen);
     sweep(subject_of(verb("bake clf")), fault, 200, seen);
     tally(fault.name, seen.tries, "one line, old or new, no crash", text_of(seen));
-    // Some of the libraries that OpenImageIO brings end or crash the program where memory ends while they are loaded.
+    // Some of the libraries that OpenImageIO brings end or crash the program where memory ends while they are
+    // loaded.
     fault.loads_libraries = true;
     Seen tiff;
     sweep(subject_of(verb("apply tiff")), fault, 500, tiff);
@@ -63,10 +67,13 @@ TEST(Memory, an_address_space_of_any_size_will_do_or_is_said_to_be_too_small) {
 
 TEST(Descriptors, run_out_at_every_open) {
   Seen seen;
-  const Fault fault = {"no descriptors (EMFILE) from the k-th open on", "open", std::to_string(EMFILE), true,
+  const Fault fault = {"no descriptors (EMFILE) from the k-th open on",
+                       "open",
+                       std::to_string(EMFILE),
+                       true,
                        {0, 3, 5, 6, 70}};
-  // Not TIFF and PNG: a library that OpenImageIO brings aborts if descriptors end while it is being loaded. Before
-  // that is begun there must be enough; the limit below holds for those.
+  // Not TIFF and PNG: a library that OpenImageIO brings aborts if descriptors end while it is being loaded.
+  // Before that is begun there must be enough; the limit below holds for those.
   for (const WritingVerb& v : writing_verbs())
     if ((!v.slow || long_form()) && v.name != "apply png" && v.name.rfind("apply tiff", 0) != 0)
       sweep(subject_of(v), fault, long_form() ? 500 : 20, seen);
@@ -122,7 +129,8 @@ TEST(Streams, closed_or_full_ones_are_errors_and_never_in_a_file) {
     ++seen.tries, ++seen.codes[ended.exit_code];
     EXPECT_EQ(broken_report(ended, {5}), "") << argument;
   }
-  tally("standard output full or closed", seen.tries, "exit 5; what is written already is counted", text_of(seen));
+  tally("standard output full or closed", seen.tries, "exit 5; what is written already is counted",
+        text_of(seen));
 }
 
 TEST(Signals, a_file_that_may_not_grow_ends_the_program_as_the_signal_says) {
@@ -137,7 +145,8 @@ TEST(Signals, a_file_that_may_not_grow_ends_the_program_as_the_signal_says) {
       const Ended ended = run(run_with);
       ++seen.tries, ++seen.codes[ended.exit_code];
       std::string wrong = broken_promise(files_in(subject.folder), subject.before, subject.after, ended);
-      if (wrong.empty() && ended.exit_code != 128 + SIGXFSZ) wrong = "exit code " + std::to_string(ended.exit_code);
+      if (wrong.empty() && ended.exit_code != 128 + SIGXFSZ)
+        wrong = "exit code " + std::to_string(ended.exit_code);
       seen.wrong += !wrong.empty();
       EXPECT_EQ(wrong, "") << name << ", " << size << " bytes";
     }
@@ -160,7 +169,8 @@ void at_random(const Subject& subject, int signal, long tries, Seen& seen) {
   for (long i = 0; i < tries; ++i) {
     Attempt run_with;
     run_with.arguments = arguments_of(*subject.verb, subject.folder);
-    const double share = (static_cast<double>(i) + static_cast<double>(random() % 1000) / 1000) / static_cast<double>(tries);
+    const double share =
+        (static_cast<double>(i) + static_cast<double>(random() % 1000) / 1000) / static_cast<double>(tries);
     run_with.kill_after = 1.05 * whole * share;
     run_with.kill_signal = signal;
     subject.reset();
@@ -198,16 +208,16 @@ TEST(Signals, at_any_instant_they_end_the_program_and_leave_nothing) {
     Seen seen;
     for (const WritingVerb& v : writing_verbs())
       if (!v.slow || long_form()) at_random(subject_of(v), signal, long_form() ? 50 : 6, seen);
-    tally(std::string(name) + " at a random instant", seen.tries, "exit 128+n, each file old or new, nothing else",
-          text_of(seen));
+    tally(std::string(name) + " at a random instant", seen.tries,
+          "exit 128+n, each file old or new, nothing else", text_of(seen));
   }
 }
 
 TEST(Others, programs_that_write_one_file_at_once_leave_the_whole_file_of_one) {
   const std::string folder = work_folder("together");
   const auto arguments = [&](int i) {
-    return std::vector<std::string>{"apply", input("in.exr"), "-o", folder + "/out.exr", "-q", "--adaptation", "0.1",
-                                    "--exposure", std::to_string(i)};
+    return std::vector<std::string>{"apply",        input("in.exr"), "-o",         folder + "/out.exr", "-q",
+                                    "--adaptation", "0.1",           "--exposure", std::to_string(i)};
   };
   std::vector<std::string> alone;
   for (int i = 0; i < 4; ++i) {
@@ -226,7 +236,8 @@ TEST(Others, programs_that_write_one_file_at_once_leave_the_whole_file_of_one) {
       children.push_back(start(one, folder + "-" + std::to_string(i)));
     }
     for (int i = 0; i < 4; ++i) {
-      const Ended ended = wait_for(children[static_cast<std::size_t>(i)], none, folder + "-" + std::to_string(i));
+      const Ended ended =
+          wait_for(children[static_cast<std::size_t>(i)], none, folder + "-" + std::to_string(i));
       ++tries;
       wrong += ended.exit_code != 0;
       EXPECT_EQ(ended.exit_code, 0) << ended.err;

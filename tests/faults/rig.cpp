@@ -133,7 +133,7 @@ Files files_in(const std::string& folder) {
   if (!fs::exists(folder)) return out;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string name = entry.path().lexically_relative(folder).string();
-    out[name] = entry.is_directory()                   ? "/"
+    out[name] = entry.is_directory()                 ? "/"
                 : entry.path().extension() == ".tif" ? without_date(contents(entry.path().string()))
                                                      : contents(entry.path().string());
   }
@@ -146,10 +146,15 @@ const std::vector<WritingVerb>& writing_verbs() {
       {"apply exr", {"apply", "@/in.exr", "-o", "@/out.exr", "--adaptation", "0.1", "-q"}, {"out.exr"}},
       {"apply in place", {"apply", "@/in.exr", "-o", "@/in.exr", "--adaptation", "0.1", "-q"}, {}},
       {"apply tiff", {"apply", "@/in.exr", "-o", "@/out.tif", "--adaptation", "0.1", "-q"}, {"out.tif"}},
-      {"apply tiff pages", {"apply", "@/pages.tif", "-o", "@/out.tif", "--adaptation", "0.1", "-q"}, {"out.tif"}},
+      {"apply tiff pages",
+       {"apply", "@/pages.tif", "-o", "@/out.tif", "--adaptation", "0.1", "-q"},
+       {"out.tif"}},
       {"apply png", {"apply", "@/in.exr", "-o", "@/out.png", "--adaptation", "0.1", "-q"}, {"out.png"}},
       {"lmsr", {"lmsr", "@/in.exr", "-o", "@/out.exr", "-q"}, {"out.exr"}},
-      {"bake clf", {"bake", "--adaptation", "0.1", "--size", "17", "-o", "@/out.clf", "-q"}, {"out.clf"}, true},
+      {"bake clf",
+       {"bake", "--adaptation", "0.1", "--size", "17", "-o", "@/out.clf", "-q"},
+       {"out.clf"},
+       true},
       {"bake cubes",
        {"bake", "--adaptation", "0.1", "--adaptation", "1", "--size", "17", "--colorspace", "ACEScct", "-o",
         "@/out.cube", "-q"},
@@ -159,7 +164,10 @@ const std::vector<WritingVerb>& writing_verbs() {
        {"bake", "--adaptation", "0.1", "--size", "17", "--config", "@/show", "--force", "-q"},
        {"show/config.ocio", "show/luts/MANIFEST"},
        true},
-      {"bake new config", {"bake", "--adaptation", "0.1", "--size", "17", "--config", "@/a/show", "-q"}, {}, true},
+      {"bake new config",
+       {"bake", "--adaptation", "0.1", "--size", "17", "--config", "@/a/show", "-q"},
+       {},
+       true},
       {"bake into",
        {"bake", "--adaptation", "0.1", "--size", "17", "--into", "@/studio.ocio", "-q"},
        {},
@@ -221,7 +229,8 @@ std::string broken_report(const Ended& ended, const std::vector<int>& codes) {
   const std::string given_up = "scotopic: internal error: a library ended the program (nothing written)\n";
   if (ended.err.ends_with(given_up)) return "";
   if (std::count(ended.err.begin(), ended.err.end(), '\n') != 1) return "not one line, " + said;
-  if (ended.err.rfind("scotopic: ", 0) != 0 && ended.err.rfind("{\"error\"", 0) != 0) return "not our line, " + said;
+  if (ended.err.rfind("scotopic: ", 0) != 0 && ended.err.rfind("{\"error\"", 0) != 0)
+    return "not our line, " + said;
   return "";
 }
 

@@ -12,20 +12,20 @@ namespace scotopic::test {
 struct Attempt {
   std::string program = SCOTOPIC_PROGRAM;
   std::vector<std::string> arguments;
-  std::vector<std::string> environment;   ///< NAME=value, besides those of the fault
-  std::string call, action;               ///< FAULT_CALL, FAULT_DO; empty: no fault
+  std::vector<std::string> environment;  ///< NAME=value, besides those of the fault
+  std::string call, action;              ///< FAULT_CALL, FAULT_DO; empty: no fault
   long at = 1;
   bool sticky = false;
-  std::string folder;                     ///< FAULT_FOLDER; the run's own where empty
-  std::string log;                        ///< FAULT_LOG
+  std::string folder;  ///< FAULT_FOLDER; the run's own where empty
+  std::string log;     ///< FAULT_LOG
   bool jail = false;
   long address_space = 0, file_size = 0;  ///< limits in bytes; 0: none
   bool no_size_signal = false;            ///< SIGXFSZ ignored: a write beyond file_size fails (EFBIG)
   int open_files = 0;
-  double kill_after = -1;                 ///< seconds; then SIGKILL, or
+  double kill_after = -1;  ///< seconds; then SIGKILL, or
   int kill_signal = 9;
   bool closed_stdout = false;
-  std::string standard_output;            ///< a device to write to, in place of a file
+  std::string standard_output;  ///< a device to write to, in place of a file
 };
 
 struct Ended {

@@ -1,9 +1,11 @@
 // Preloaded into the program under test: the k-th call of a kind goes wrong.
 //
-//   FAULT_CALL    write, read, create, open, fsync, close, link, rename, mkdir, malloc (from main on); or event:
+//   FAULT_CALL    write, read, create, open, fsync, close, link, rename, mkdir, malloc (from main on); or
+//   event:
 //                 any of those that change the disk
 //   FAULT_AT      which call, from 1
-//   FAULT_DO      an errno; or kill, signalN (raise N), short (half of it is done), truncate, append, rewrite,
+//   FAULT_DO      an errno; or kill, signalN (raise N), short (half of it is done), truncate, append,
+//   rewrite,
 //                 replace (of the file being read)
 //   FAULT_STICKY  set: that call and all later ones
 //   FAULT_FOLDER  files in it count, others do not (open, malloc: all count)
@@ -44,9 +46,22 @@ void* __libc_memalign(size_t, size_t);
 
 namespace {
 
-enum Call { c_write, c_read, c_create, c_open, c_fsync, c_close, c_link, c_rename, c_mkdir, c_malloc, c_event, c_none };
-const char* const names[] = {"write", "read", "create", "open", "fsync", "close",
-                             "link",  "rename", "mkdir", "malloc", "event", "none"};
+enum Call {
+  c_write,
+  c_read,
+  c_create,
+  c_open,
+  c_fsync,
+  c_close,
+  c_link,
+  c_rename,
+  c_mkdir,
+  c_malloc,
+  c_event,
+  c_none
+};
+const char* const names[] = {"write", "read",   "create", "open",   "fsync", "close",
+                             "link",  "rename", "mkdir",  "malloc", "event", "none"};
 enum Action { a_errno, a_kill, a_signal, a_short, a_truncate, a_append, a_rewrite, a_replace };
 
 std::atomic<long> counts[c_none + 1];
@@ -85,18 +100,19 @@ void jail() {
     return sock_filter(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, number_of_call, 0, 1));
   };
   const sock_filter kill_it = BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_KILL_PROCESS);
-  sock_filter filter[] = {BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
-                          deny(SYS_execve), kill_it, deny(SYS_execveat), kill_it, deny(SYS_socket), kill_it,
-                          deny(SYS_connect), kill_it, deny(SYS_fork), kill_it, deny(SYS_vfork), kill_it,
-                          deny(SYS_ptrace), kill_it,
-                          // Threads are allowed, processes are not. clone3 hides which it is: glibc does without.
-                          deny(SYS_clone3), BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | ENOSYS),
-                          BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_clone, 0, 3),
-                          BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, args)),
-                          BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, CLONE_THREAD, 1, 0), kill_it,
-                          BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW)};
+  sock_filter filter[] = {
+      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)), deny(SYS_execve), kill_it,
+      deny(SYS_execveat), kill_it, deny(SYS_socket), kill_it, deny(SYS_connect), kill_it, deny(SYS_fork),
+      kill_it, deny(SYS_vfork), kill_it, deny(SYS_ptrace), kill_it,
+      // Threads are allowed, processes are not. clone3 hides which it is: glibc does without.
+      deny(SYS_clone3), BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | ENOSYS),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_clone, 0, 3),
+      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, args)),
+      BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, CLONE_THREAD, 1, 0), kill_it,
+      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW)};
   const sock_fprog program = {sizeof filter / sizeof *filter, filter};
-  if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 || prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) != 0)
+  if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 ||
+      prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) != 0)
     put("/dev/stderr", "shim:", "no seccomp here");
 }
 

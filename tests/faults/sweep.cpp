@@ -81,14 +81,16 @@ void sweep(const Subject& subject, const Fault& fault, long most, Seen& seen) {
                           (fault.loads_libraries && (ended.exit_code == 127 || ended.exit_code == 139));
     if (wrong.empty() && !forgiven) wrong = broken_report(ended, fault.codes);
     if (wrong.empty() && fault.uncatchable) {
-      // What lies there now must not stand in the way, and must go. (A config's looks cannot be added twice, and
-      // what was applied in place would be applied again.)
+      // What lies there now must not stand in the way, and must go. (A config's looks cannot be added twice,
+      // and what was applied in place would be applied again.)
       const bool done = now == subject.after;
       const bool repeatable = subject.verb->name != "bake into" && subject.verb->name != "apply in place";
       if (repeatable || !done) {
         const Ended again = run(run_of(subject));
-        if (again.exit_code != 0) wrong = "cannot be run again: " + again.err;
-        else if (files_in(subject.folder) != subject.after) wrong = "the next run leaves something else";
+        if (again.exit_code != 0)
+          wrong = "cannot be run again: " + again.err;
+        else if (files_in(subject.folder) != subject.after)
+          wrong = "the next run leaves something else";
       }
     }
     seen.wrong += !wrong.empty();

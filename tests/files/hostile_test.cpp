@@ -199,7 +199,8 @@ TEST(Hostile, option_values_that_are_none_are_usage_errors) {
     EXPECT_EQ(run.exit_code, 2) << arguments[0] << " '" << arguments[1] << "' " << run.err;
     EXPECT_NE(run.err.find(arguments[0]), std::string::npos) << run.err;
   }
-  const test::Outcome empty = test::run_program({"explain", test::place("in.exr"), "--white-luminance", "1", "--effects", ""});
+  const test::Outcome empty =
+      test::run_program({"explain", test::place("in.exr"), "--white-luminance", "1", "--effects", ""});
   EXPECT_EQ(empty.exit_code, 2) << empty.err;
 }
 

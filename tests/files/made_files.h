@@ -31,7 +31,8 @@ struct FlatPart {
 /// One part is written as a file of one part.
 void write_flat_exr(const std::string& file, const std::vector<FlatPart>& parts);
 /// R, G, B of float.
-void write_flat_exr(const std::string& file, const Rgb& rgb, const std::function<void(Imf::Header&)>& more = nullptr);
+void write_flat_exr(const std::string& file, const Rgb& rgb,
+                    const std::function<void(Imf::Header&)>& more = nullptr);
 
 /// A chunk or segment by its type.
 using Chunk = std::pair<std::string, std::string>;
@@ -48,8 +49,10 @@ void write_bytes(const std::string& file, const std::string& bytes);
 
 /// An Adobe RGB (1998) profile, gamma 563/256, made with LittleCMS.
 std::string adobe_profile();
-/// A TIFF or JPEG by OpenImageIO, 8 x 8 pixels of one value (0..1), with an ICC profile where it is not empty.
-void write_flat_oiio(const std::string& file, const std::vector<float>& pixel, bool sixteen_bits, const std::string& profile,
+/// A TIFF or JPEG by OpenImageIO, 8 x 8 pixels of one value (0..1), with an ICC profile where it is not
+/// empty.
+void write_flat_oiio(const std::string& file, const std::vector<float>& pixel, bool sixteen_bits,
+                     const std::string& profile,
                      const std::vector<std::pair<std::string, int>>& attributes = {});
 
 /// What a run of the program says and leaves.
@@ -61,7 +64,8 @@ struct Run {
 Run apply(const std::string& in, const std::string& out, std::vector<std::string> more = {});
 
 /// Channels of a pixel of a part, as float; 0 for those that are not there.
-std::vector<float> pixel_of(const std::string& file, const std::vector<std::string>& channels, int part = 0, int x = 0, int y = 0);
+std::vector<float> pixel_of(const std::string& file, const std::vector<std::string>& channels, int part = 0,
+                            int x = 0, int y = 0);
 /// A float attribute; NaN where there is none.
 double float_attribute(const std::string& file, const std::string& name);
 

@@ -15,7 +15,8 @@ std::vector<Bytes> seeds() {
   <LUT3D inBitDepth="32f" outBitDepth="32f" interpolation="tetrahedral"><Array dim="2 2 2 3">
 0 0 0 0 0 1 0 1 0 0 1 1 1 0 0 1 0 1 1 1 0 1 1 1</Array></LUT3D>
 </ProcessList>
-)"), shipped("luts/filament2021_10.clf")};
+)"),
+          shipped("luts/filament2021_10.clf")};
 }
 
 }  // namespace scotopic::fuzz

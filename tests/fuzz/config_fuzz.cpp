@@ -26,7 +26,8 @@ colorspaces:
     aliases: [e, display]
     to_scene_reference: !<ExponentWithLinearTransform> {gamma: 2.4, offset: 0.055}
 )"),
-          bytes_of("ocio_profile_version: 1\nroles: {scene_linear: a}\ndisplays: {d: [!<View> {name: v, colorspace: a}]}\n"
+          bytes_of("ocio_profile_version: 1\nroles: {scene_linear: a}\ndisplays: {d: [!<View> {name: v, "
+                   "colorspace: a}]}\n"
                    "colorspaces: [!<ColorSpace> {name: a, isdata: true}]\n"),
           shipped("ocio_config/config.ocio")};
 }

@@ -22,7 +22,8 @@ namespace {
 
 constexpr int width = 9, height = 7;
 
-Bytes file_of(const std::vector<std::string>& channels, Imf::Compression compression, Imf::PixelType type, bool tiled) {
+Bytes file_of(const std::vector<std::string>& channels, Imf::Compression compression, Imf::PixelType type,
+              bool tiled) {
   Imf::Header header(width, height);
   header.compression() = compression;
   Imf::addWhiteLuminance(header, 100);
@@ -101,12 +102,17 @@ void read_all(PixelSource& source) {
 
 std::vector<Bytes> seeds() {
   Imf::setGlobalThreadCount(0);
-  const std::vector<std::string> rgb = {"R", "G", "B", "A"}, bands = {"S0.400,0nm", "S0.500,0nm", "S0.600,0nm"};
-  return {file_of(rgb, Imf::NO_COMPRESSION, Imf::HALF, false),  file_of(rgb, Imf::ZIP_COMPRESSION, Imf::FLOAT, false),
-          file_of(rgb, Imf::PIZ_COMPRESSION, Imf::HALF, true),  file_of(rgb, Imf::RLE_COMPRESSION, Imf::UINT, true),
-          file_of(bands, Imf::ZIPS_COMPRESSION, Imf::FLOAT, false), file_of(bands, Imf::DWAA_COMPRESSION, Imf::HALF, false),
+  const std::vector<std::string> rgb = {"R", "G", "B", "A"},
+                                 bands = {"S0.400,0nm", "S0.500,0nm", "S0.600,0nm"};
+  return {file_of(rgb, Imf::NO_COMPRESSION, Imf::HALF, false),
+          file_of(rgb, Imf::ZIP_COMPRESSION, Imf::FLOAT, false),
+          file_of(rgb, Imf::PIZ_COMPRESSION, Imf::HALF, true),
+          file_of(rgb, Imf::RLE_COMPRESSION, Imf::UINT, true),
+          file_of(bands, Imf::ZIPS_COMPRESSION, Imf::FLOAT, false),
+          file_of(bands, Imf::DWAA_COMPRESSION, Imf::HALF, false),
           file_of({"L", "M", "S", "R"}, Imf::B44_COMPRESSION, Imf::HALF, false),
-          file_of({"Y"}, Imf::PXR24_COMPRESSION, Imf::FLOAT, false), parts()};
+          file_of({"Y"}, Imf::PXR24_COMPRESSION, Imf::FLOAT, false),
+          parts()};
 }
 
 }  // namespace scotopic::fuzz

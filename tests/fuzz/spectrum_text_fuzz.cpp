@@ -8,8 +8,9 @@
 namespace scotopic::fuzz {
 
 std::vector<Bytes> seeds() {
-  return {bytes_of("# a lamp\nnm,power\n400,0.1\n500,1\n600,.7\n700,0\n"), bytes_of("400;0.1\n400.1;0.2\n500;3e-4\n"),
-          bytes_of("380 1\n780 1\n"), bytes_of("nm\tvalue\n1e2\t0\n9e2\t1\n")};
+  return {bytes_of("# a lamp\nnm,power\n400,0.1\n500,1\n600,.7\n700,0\n"),
+          bytes_of("400;0.1\n400.1;0.2\n500;3e-4\n"), bytes_of("380 1\n780 1\n"),
+          bytes_of("nm\tvalue\n1e2\t0\n9e2\t1\n")};
 }
 
 }  // namespace scotopic::fuzz

@@ -1,5 +1,5 @@
-// Runs a fuzz target without libFuzzer: seeds, files kept from earlier findings, and mutations that are the same in
-// every run. For debuggers, for other compilers, and for the short form in the test suite.
+// Runs a fuzz target without libFuzzer: seeds, files kept from earlier findings, and mutations that are the
+// same in every run. For debuggers, for other compilers, and for the short form in the test suite.
 //   replay_NAME [--mutations N] [--seed S] [--write-seeds FOLDER] [FILE or FOLDER]...
 #include <algorithm>
 #include <cstdio>
@@ -31,32 +31,43 @@ std::size_t place(const Bytes& b, Random& random) {
 }
 
 void mutate_once(Bytes& b, const std::vector<Bytes>& seeds, Random& random) {
-  static constexpr std::uint32_t words[] = {0, 1, 0xff, 0x7fffffff, 0x80000000, 0xffffffff, 0x7f800000, 0x10000, 0x100};
+  static constexpr std::uint32_t words[] = {0,          1,          0xff,    0x7fffffff, 0x80000000,
+                                            0xffffffff, 0x7f800000, 0x10000, 0x100};
   if (b.empty()) b.push_back(0);
   const std::size_t at = place(b, random);
   switch (random.below(7)) {
-    case 0: b[at] ^= static_cast<std::uint8_t>(1u << random.below(8)); break;
-    case 1: b[at] = static_cast<std::uint8_t>(random.next()); break;
+    case 0:
+      b[at] ^= static_cast<std::uint8_t>(1u << random.below(8));
+      break;
+    case 1:
+      b[at] = static_cast<std::uint8_t>(random.next());
+      break;
     case 2: {
       const std::uint32_t word = words[random.below(std::size(words))];
       std::memcpy(b.data() + at, &word, std::min(sizeof word, b.size() - at));
       break;
     }
-    case 3: b.erase(b.begin() + static_cast<std::ptrdiff_t>(at),
-                    b.begin() + static_cast<std::ptrdiff_t>(std::min(b.size(), at + 1 + random.below(16))));
+    case 3:
+      b.erase(b.begin() + static_cast<std::ptrdiff_t>(at),
+              b.begin() + static_cast<std::ptrdiff_t>(std::min(b.size(), at + 1 + random.below(16))));
       break;
-    case 4: b.resize(at); break;
+    case 4:
+      b.resize(at);
+      break;
     case 5: {
-      const Bytes piece(b.begin() + static_cast<std::ptrdiff_t>(at),
-                        b.begin() + static_cast<std::ptrdiff_t>(std::min(b.size(), at + 1 + random.below(64))));
+      const Bytes piece(
+          b.begin() + static_cast<std::ptrdiff_t>(at),
+          b.begin() + static_cast<std::ptrdiff_t>(std::min(b.size(), at + 1 + random.below(64))));
       b.insert(b.begin() + static_cast<std::ptrdiff_t>(place(b, random)), piece.begin(), piece.end());
       break;
     }
     default: {
       const Bytes& other = seeds[random.below(seeds.size())];
       const std::size_t from = random.below(other.size());
-      const std::size_t count = std::min({other.size() - from, b.size() - at, std::size_t{1} + random.below(64)});
-      std::copy_n(other.begin() + static_cast<std::ptrdiff_t>(from), count, b.begin() + static_cast<std::ptrdiff_t>(at));
+      const std::size_t count =
+          std::min({other.size() - from, b.size() - at, std::size_t{1} + random.below(64)});
+      std::copy_n(other.begin() + static_cast<std::ptrdiff_t>(from), count,
+                  b.begin() + static_cast<std::ptrdiff_t>(at));
     }
   }
 }
@@ -96,7 +107,8 @@ int main(int argc, char** argv) {
       std::filesystem::create_directories(folder);
       for (std::size_t k = 0; k < seeds.size(); ++k)
         std::ofstream(folder / ("seed" + std::to_string(k)), std::ios::binary)
-            .write(reinterpret_cast<const char*>(seeds[k].data()), static_cast<std::streamsize>(seeds[k].size()));
+            .write(reinterpret_cast<const char*>(seeds[k].data()),
+                   static_cast<std::streamsize>(seeds[k].size()));
     } else if (std::filesystem::exists(argv[i])) {
       replayed += replay(argv[i]);
     } else {
@@ -110,7 +122,8 @@ int main(int argc, char** argv) {
     Bytes b = seeds[random.below(seeds.size())];
     for (std::size_t k = 1 + random.below(4); k > 0; --k) mutate_once(b, seeds, random);
     // Kept when the target dies: the input that did it.
-    std::ofstream(last, std::ios::binary).write(reinterpret_cast<const char*>(b.data()), static_cast<std::streamsize>(b.size()));
+    std::ofstream(last, std::ios::binary)
+        .write(reinterpret_cast<const char*>(b.data()), static_cast<std::streamsize>(b.size()));
     run(b);
   }
   std::printf("%zu seeds, %zu files, %zu mutations\n", seeds.size(), replayed, mutations);

@@ -1,5 +1,6 @@
-// What a fuzz target is: a function that takes any bytes, and inputs to begin with. The same source is a libFuzzer
-// target (clang) and, with standalone_main.cpp, a program that replays files and mutates its seeds the same way each time.
+// What a fuzz target is: a function that takes any bytes, and inputs to begin with. The same source is a
+// libFuzzer target (clang) and, with standalone_main.cpp, a program that replays files and mutates its seeds
+// the same way each time.
 #pragma once
 
 #include <cstddef>
@@ -58,7 +59,8 @@ inline const std::filesystem::path& scratch() {
 
 inline std::string scratch_file(const char* name, const std::uint8_t* data, std::size_t size) {
   const std::string file = (scratch() / name).string();
-  std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   return file;
 }
 

@@ -60,7 +60,8 @@ TEST(Docs, the_index_names_every_page) {
 TEST(Docs, every_picture_is_shown_on_a_page) {
   std::set<fs::path> shown;
   for (const fs::path& page : pages())
-    for (const std::string& target : links(page)) shown.insert(fs::weakly_canonical(page.parent_path() / target));
+    for (const std::string& target : links(page))
+      shown.insert(fs::weakly_canonical(page.parent_path() / target));
   for (const char* folder : {"docs/images", "docs/figures", "docs/gallery"})
     for (const auto& entry : fs::directory_iterator(root / folder)) {
       if (entry.path().extension() == ".csv") continue;

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 const fs::path source = fs::path(SCOTOPIC_SOURCE_DIR) / "src";
 
 // From the ground up; a room may include itself and those before it.
-const std::vector<std::string> rooms = {"kernel", "receptors", "adaptation", "stages", "batch", "scene",
+const std::vector<std::string> rooms = {"kernel", "receptors", "adaptation", "stages",   "batch",   "scene",
                                         "base",   "color",     "io",         "pipeline", "shaders", "looks",
                                         "cli",    "host",      "python",     "ofx"};
 
@@ -77,8 +77,10 @@ TEST(House, the_core_knows_neither_files_nor_ocio) {
     if (!core.count(fs::relative(file, source).begin()->string())) return;
     std::ifstream text(file);
     for (std::string line; std::getline(text, line);)
-      for (const char* library : {"<OpenColorIO", "<OpenImageIO", "<OpenEXR", "<Imath", "<fstream>", "<filesystem>"})
-        EXPECT_TRUE(line.rfind("#include", 0) != 0 || line.find(library) == std::string::npos) << file << ": " << line;
+      for (const char* library :
+           {"<OpenColorIO", "<OpenImageIO", "<OpenEXR", "<Imath", "<fstream>", "<filesystem>"})
+        EXPECT_TRUE(line.rfind("#include", 0) != 0 || line.find(library) == std::string::npos)
+            << file << ": " << line;
   });
 }
 
@@ -90,9 +92,10 @@ std::string text_of(const fs::path& file) {
 
 TEST(House, a_file_that_calls_an_algorithm_includes_it) {
   // Other headers bring <algorithm> in some standard libraries, not in the next: GCC 14's leave it out.
-  const std::regex call(R"(\bstd::(all_of|any_of|clamp|copy|count|count_if|equal|fill|find|find_if|lower_bound|max|)"
-                        R"(max_element|min|min_element|minmax|none_of|nth_element|replace|reverse|sort|stable_sort|)"
-                        R"(transform|unique|upper_bound)\()");
+  const std::regex call(
+      R"(\bstd::(all_of|any_of|clamp|copy|count|count_if|equal|fill|find|find_if|lower_bound|max|)"
+      R"(max_element|min|min_element|minmax|none_of|nth_element|replace|reverse|sort|stable_sort|)"
+      R"(transform|unique|upper_bound)\()");
   int callers = 0;
   for (const fs::path& root : {source, fs::path(SCOTOPIC_SOURCE_DIR) / "tests"})
     for_each_source(root, [&](const fs::path& file) {
@@ -113,7 +116,8 @@ TEST(House, the_program_asks_for_the_variables_that_are_listed) {
     for (std::sregex_iterator found(text.begin(), text.end(), call), end; found != end; ++found, ++asked) {
       const std::string name = (*found)[1];
       ASSERT_EQ(name.front(), '"') << file << " asks for a variable whose name is not written there";
-      EXPECT_NE(promises.find("`" + name.substr(1, name.size() - 2) + "`"), std::string::npos) << file << ": " << name;
+      EXPECT_NE(promises.find("`" + name.substr(1, name.size() - 2) + "`"), std::string::npos)
+          << file << ": " << name;
     }
   });
   EXPECT_GT(asked, 0);

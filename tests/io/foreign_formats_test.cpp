@@ -137,7 +137,8 @@ TEST(ForeignFormats, types_that_the_output_cannot_hold_are_refused) {
 
 TEST(ForeignFormats, jpeg_holds_the_colours_and_what_was_done) {
   test::TestPart part;
-  part.channels = {{"A", PixelType::half}, {"B", PixelType::half}, {"G", PixelType::half}, {"R", PixelType::half}};
+  part.channels = {
+      {"A", PixelType::half}, {"B", PixelType::half}, {"G", PixelType::half}, {"R", PixelType::half}};
   part.data = {-3, 5, 61, 69};
   part.finite = true;
   test::write_exr(temporary("in.exr"), {part});
@@ -153,7 +154,8 @@ TEST(ForeignFormats, jpeg_holds_the_colours_and_what_was_done) {
   ASSERT_TRUE(in);
   EXPECT_EQ(in->spec().width, 64);
   EXPECT_EQ(in->spec().nchannels, 3);
-  EXPECT_NE(in->spec().get_string_attribute("ImageDescription").find("scotopic:adaptation=0.5"), std::string::npos);
+  EXPECT_NE(in->spec().get_string_attribute("ImageDescription").find("scotopic:adaptation=0.5"),
+            std::string::npos);
   EXPECT_EQ(in->spec().get_string_attribute("jpeg:subsampling"), "4:4:4");
 }
 
@@ -167,7 +169,9 @@ TEST(ForeignFormats, jpeg_has_no_alpha_so_colour_is_what_alpha_leaves_of_it) {
   const std::vector<std::uint8_t> got = read<std::uint8_t>(temporary("out.jpg"));
   ASSERT_EQ(got.size(), 50u * 40u * 3u);
   // IEC 61966-2-1: what is left is light, not code values.
-  const auto light = [](std::uint8_t v) { return v <= 10 ? v / 255.0 / 12.92 : std::pow((v / 255.0 + 0.055) / 1.055, 2.4); };
+  const auto light = [](std::uint8_t v) {
+    return v <= 10 ? v / 255.0 / 12.92 : std::pow((v / 255.0 + 0.055) / 1.055, 2.4);
+  };
   double sum = 0, wanted = 0;
   for (std::size_t i = 0; i < 50 * 40; ++i)
     for (std::size_t c = 0; c < 3; ++c) {

@@ -17,12 +17,15 @@ struct Worst {
   double error = 0;
   std::string where = "nowhere";
   void add(double got, double expected, const std::string& name) {
-    const double e = std::abs(got - expected) / std::max(std::abs(expected), std::numeric_limits<double>::min());
+    const double e =
+        std::abs(got - expected) / std::max(std::abs(expected), std::numeric_limits<double>::min());
     if (!(e <= error)) error = e, where = name;
   }
 };
 
-Vec3<double> plus(const Vec3<double>& a, const Vec3<double>& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+Vec3<double> plus(const Vec3<double>& a, const Vec3<double>& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
 
 TEST(Kernel, kirk2011_agrees_with_the_published_formula_to_1e_12) {
   const Kernel<double> kernel(kernel_preset(Model::kirk2011), 1.0);
@@ -49,7 +52,8 @@ TEST(Kernel, kirk2011_agrees_with_the_published_formula_to_1e_12) {
     worst.add(out[2], row["So"], row.name + " So");
     ++compared;
   }
-  std::printf("kirk2011: %d rows, worst relative error %.3g at %s\n", compared, worst.error, worst.where.c_str());
+  std::printf("kirk2011: %d rows, worst relative error %.3g at %s\n", compared, worst.error,
+              worst.where.c_str());
   EXPECT_EQ(compared, 18);
   EXPECT_LE(worst.error, 1e-12);
 }

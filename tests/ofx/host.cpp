@@ -96,7 +96,9 @@ const PropertySuite property_functions = {
     [](PropertySet s, const char* n, int i, double v) { return set_value<double>(s, n, i, v); },
     [](PropertySet s, const char* n, int i, int v) { return set_value<int>(s, n, i, v); },
     [](PropertySet s, const char* n, int c, void* const* v) { return set_values<void*>(s, n, c, v); },
-    [](PropertySet s, const char* n, int c, const char* const* v) { return set_values<std::string>(s, n, c, v); },
+    [](PropertySet s, const char* n, int c, const char* const* v) {
+      return set_values<std::string>(s, n, c, v);
+    },
     [](PropertySet s, const char* n, int c, const double* v) { return set_values<double>(s, n, c, v); },
     [](PropertySet s, const char* n, int c, const int* v) { return set_values<int>(s, n, c, v); },
     [](PropertySet s, const char* n, int i, void** v) { return get_value<void*>(s, n, i, v); },
@@ -139,7 +141,10 @@ const ImageEffectSuite effect_functions = {
     [](PropertySet image) { return image ? ok : bad_handle; },
     [](Clip clip, Time, RectD* out) { return clip ? (*out = clip->definition, ok) : bad_handle; },
     [](ImageEffect) { return 0; },
-    nullptr, nullptr, nullptr, nullptr};
+    nullptr,
+    nullptr,
+    nullptr,
+    nullptr};
 
 void put_value(const ParamStruct& param, Time time, va_list arguments) {
   if (param.type == type::dbl)
@@ -183,8 +188,20 @@ const ParameterSuite parameter_functions = {
     },
     [](ParamSet set, PropertySet* out) { return *out = &set->properties, ok; },
     [](Param param, PropertySet* out) { return *out = &param->properties, ok; },
-    value_now, value_at,
-    nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};
+    value_now,
+    value_at,
+    nullptr,
+    nullptr,
+    nullptr,
+    nullptr,
+    nullptr,
+    nullptr,
+    nullptr,
+    nullptr,
+    nullptr,
+    nullptr,
+    nullptr,
+    nullptr};
 
 Status show(void*, const char* kind, const char*, const char* format, ...) {
   char text[4096];
@@ -218,7 +235,8 @@ HostImage::HostImage(const RectI& bounds, int channels, Depth depth, int padding
       channels_(channels),
       depth_(depth),
       pixel_bytes_(static_cast<std::size_t>(channels) * (depth == Depth::half ? 2 : 4)),
-      row_bytes_(static_cast<std::size_t>(bounds.x2 - bounds.x1) * pixel_bytes_ + 4 * static_cast<std::size_t>(padding)),
+      row_bytes_(static_cast<std::size_t>(bounds.x2 - bounds.x1) * pixel_bytes_ +
+                 4 * static_cast<std::size_t>(padding)),
       padding_(4 * static_cast<std::size_t>(padding)),
       bytes_(row_bytes_ * static_cast<std::size_t>(bounds.y2 - bounds.y1) + padding_, untouched) {}
 

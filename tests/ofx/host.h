@@ -1,5 +1,5 @@
-// A host of OpenFX plug-ins, as small as a test needs: loads a module, has its suites, and hands out images of any bounds and
-// strides. What it is asked for wrongly it counts.
+// A host of OpenFX plug-ins, as small as a test needs: loads a module, has its suites, and hands out images
+// of any bounds and strides. What it is asked for wrongly it counts.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,5 @@
-// Scotopic.ofx in a host of the test's own: pixels are those that the program writes; a mistake is a status and a message.
+// Scotopic.ofx in a host of the test's own: pixels are those that the program writes; a mistake is a status
+// and a message.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -60,12 +61,15 @@ const std::vector<Setting>& settings() {
        {"--adaptation=auto", "--white-luminance=2"},
        true},
       {"strengths",
-       [](auto& e) { word(e, "scene", "lane"), number(e, "strength", 0.7), number(e, "strength_chroma", 0.25); },
+       [](auto& e) {
+         word(e, "scene", "lane"), number(e, "strength", 0.7), number(e, "strength_chroma", 0.25);
+       },
        {"--adaptation=lane", "--strength=0.7", "--strength-chroma=0.25"}},
       {"list of effects",
        [](auto& e) {
          word(e, "scene", "moon"), word(e, "effects", "listed");
-         for (const char* off : {"use_luminance", "use_chroma", "use_detail", "use_glare", "use_noise"}) tick(e, off, false);
+         for (const char* off : {"use_luminance", "use_chroma", "use_detail", "use_glare", "use_noise"})
+           tick(e, off, false);
        },
        {"--adaptation=moon", "--effects=shift"}},
       {"another model",
@@ -80,15 +84,22 @@ const std::vector<Setting>& settings() {
        {"--adaptation=moon", "--ppd=20", "--detail=bilateral"},
        true},
       {"glare",
-       [](auto& e) { word(e, "scene", "road"), number(e, "ppd", 10), word(e, "glare", "all"), number(e, "age", 70); },
+       [](auto& e) {
+         word(e, "scene", "road"), number(e, "ppd", 10), word(e, "glare", "all"), number(e, "age", 70);
+       },
        {"--adaptation=road", "--ppd=10", "--glare=all", "--age=70"},
        true},
       {"everything, in a still",
-       [](auto& e) { word(e, "scene", "starlight"), word(e, "effects", "all"), number(e, "fov", 5), tick(e, "moving", false); },
+       [](auto& e) {
+         word(e, "scene", "starlight"), word(e, "effects", "all"), number(e, "fov", 5),
+             tick(e, "moving", false);
+       },
        {"--adaptation=starlight", "--effects=all", "--fov=5"},
        true},
       {"daylight before",
-       [](auto& e) { word(e, "scene", "moon"), e.params.params.at("adaptation_history").text = "1000:600,0.01:20"; },
+       [](auto& e) {
+         word(e, "scene", "moon"), e.params.params.at("adaptation_history").text = "1000:600,0.01:20";
+       },
        {"--adaptation=moon", "--adaptation-history=1000:600,0.01:20"}},
       {"display",
        [](auto& e) { word(e, "scene", "street"), e.params.params.at("display").text = "night"; },
@@ -99,7 +110,9 @@ const std::vector<Setting>& settings() {
        {"--adaptation=street", "--tone=local"},
        true},
       {"a space",
-       [](auto& e) { word(e, "scene", "street"), word(e, "colorspace", "ACEScg"), number(e, "exposure", 1.5); },
+       [](auto& e) {
+         word(e, "scene", "street"), word(e, "colorspace", "ACEScg"), number(e, "exposure", 1.5);
+       },
        {"--adaptation=street", "--colorspace=ACEScg", "--exposure=1.5"}},
       {"nothing called for", [](auto& e) { number(e, "log10_adaptation", 2); }, {"--adaptation=100"}},
   };
@@ -151,8 +164,9 @@ struct Clips {
       : source(bounds, channels, depth), target(bounds, channels, depth) {
     source.describe(effect.clips.at(ofx::source_clip).image, frame);
     target.describe(effect.clips.at(ofx::output_clip).image, frame);
-    effect.clips.at(ofx::source_clip).definition = {static_cast<double>(frame.x1), static_cast<double>(frame.y1),
-                                                    static_cast<double>(frame.x2), static_cast<double>(frame.y2)};
+    effect.clips.at(ofx::source_clip).definition = {
+        static_cast<double>(frame.x1), static_cast<double>(frame.y1), static_cast<double>(frame.x2),
+        static_cast<double>(frame.y2)};
   }
   HostImage source, target;
 };
@@ -189,8 +203,10 @@ TEST_F(Plugin, says_what_it_takes_and_has_a_control_for_every_parameter) {
     EXPECT_EQ(param.properties.text(ofx::property::hint), c.sentence);
     EXPECT_EQ(d.params.params.count(param.properties.text(ofx::property::parent)), 1u) << c.name;
     if (c.kind == Control::Kind::number) {
-      EXPECT_LE(param.properties.number(ofx::property::least), param.properties.number(ofx::property::initial));
-      EXPECT_GE(param.properties.number(ofx::property::greatest), param.properties.number(ofx::property::initial));
+      EXPECT_LE(param.properties.number(ofx::property::least),
+                param.properties.number(ofx::property::initial));
+      EXPECT_GE(param.properties.number(ofx::property::greatest),
+                param.properties.number(ofx::property::initial));
     }
   }
   EXPECT_GT(controls().size(), 30u);
@@ -216,7 +232,8 @@ TEST_F(Plugin, every_stage_depth_and_number_of_components_gives_the_programs_byt
         picture.put(out, expected, 3, -5);
         if (setting.options.back().find("history") != std::string::npos) tick(*effect, "moving", false);
         ASSERT_EQ(render(host_, *effect, frame), ofx::ok) << setting.name;
-        EXPECT_TRUE(same_pixels(clips.target, expected, frame)) << setting.name << ", " << channels << " channels";
+        EXPECT_TRUE(same_pixels(clips.target, expected, frame))
+            << setting.name << ", " << channels << " channels";
         EXPECT_TRUE(clips.target.padding_is_whole());
         compared += static_cast<std::size_t>(width * height * channels);
         host_.destroy(*effect);
@@ -270,7 +287,8 @@ TEST_F(Plugin, a_proxy_has_as_many_degrees_as_the_picture) {
   const Picture picture(4, Depth::float32);
   const RectI frame = {0, 0, width, height};
   const auto full = host_.instance(), half = host_.instance();
-  for (ImageEffectStruct* effect : {full.get(), half.get()}) word(*effect, "scene", "moon"), word(*effect, "detail", "bilateral");
+  for (ImageEffectStruct* effect : {full.get(), half.get()})
+    word(*effect, "scene", "moon"), word(*effect, "detail", "bilateral");
   number(*full, "ppd", 10);
   number(*half, "ppd", 20);
   Clips a(*full, frame, frame, 4, Depth::float32), b(*half, frame, frame, 4, Depth::float32);
@@ -317,7 +335,9 @@ TEST_F(Plugin, threads_may_render_one_instance_at_once) {
   HostImage expected = clips.target;
   std::vector<std::thread> threads;
   for (int i = 0; i < 6; ++i)
-    threads.emplace_back([&, i] { EXPECT_EQ(render(host_, *effect, {0, i * 10, width, i * 10 + 10}), ofx::ok); });
+    threads.emplace_back([&, i] {
+      EXPECT_EQ(render(host_, *effect, {0, i * 10, width, i * 10 + 10}), ofx::ok);
+    });
   for (std::thread& thread : threads) thread.join();
   EXPECT_TRUE(same_pixels(clips.target, expected, frame));
 }
@@ -341,11 +361,21 @@ TEST(PluginFaults, a_mistake_is_a_status_and_a_message) {
   fails([](auto& e) { word(e, "scene", "auto"); }, "absolute luminance unknown");
   fails([](auto& e) { e.params.params.at("adaptation_history").text = "noon"; }, "--adaptation-history");
   fails([](auto& e) { e.clips.at(ofx::source_clip).has_image = false; }, "no image at this time");
-  fails([](auto& e) { e.clips.at(ofx::source_clip).image.set(ofx::property::components, {std::string("Alpha")}); },
-        "neither RGB nor RGBA");
-  fails([](auto& e) { e.clips.at(ofx::source_clip).image.set(ofx::property::pixel_depth, {std::string("OfxBitDepthByte")}); },
-        "neither of float nor of half");
-  fails([](auto& e) { e.clips.at(ofx::source_clip).image.set(ofx::property::bounds, {0, 0, 0, 0}); }, "no pixels");
+  fails(
+      [](auto& e) {
+        e.clips.at(ofx::source_clip).image.set(ofx::property::components, {std::string("Alpha")});
+      },
+      "neither RGB nor RGBA");
+  fails(
+      [](auto& e) {
+        e.clips.at(ofx::source_clip).image.set(ofx::property::pixel_depth, {std::string("OfxBitDepthByte")});
+      },
+      "neither of float nor of half");
+  fails(
+      [](auto& e) {
+        e.clips.at(ofx::source_clip).image.set(ofx::property::bounds, {0, 0, 0, 0});
+      },
+      "no pixels");
   fails([](auto& e) { e.properties.values.erase(ofx::property::instance_data); }, "lost the instance's data");
 }
 

@@ -1,5 +1,5 @@
-// Pixels that are adapted to 5 cd/m2 or more are skipped piece by piece: the file is the same, bit for bit, as if each
-// pixel had been looked at by itself - whatever the tiles, and however many threads.
+// Pixels that are adapted to 5 cd/m2 or more are skipped piece by piece: the file is the same, bit for bit,
+// as if each pixel had been looked at by itself - whatever the tiles, and however many threads.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -29,8 +29,8 @@ struct Halves {
   NativeRow row(std::size_t c) { return {reinterpret_cast<std::byte*>(plane[c].data()), 2, PixelType::half}; }
 };
 
-/// Dark ground with everything that a piece can be: lit from end to end, lit but for one pixel, dark but for one, on
-/// either side of the limit by a half's last place, and pixels that are no light.
+/// Dark ground with everything that a piece can be: lit from end to end, lit but for one pixel, dark but for
+/// one, on either side of the limit by a half's last place, and pixels that are no light.
 Halves scene() {
   std::mt19937 random(3);
   std::vector<float> rgb[3];
@@ -43,7 +43,8 @@ Halves scene() {
     for (auto& plane : rgb) plane[i] = level * (0.5f + static_cast<float>(random() % 1000) / 2000);
     // Greys around what makes 5 cd/m2 with La = 4.5 and .01.
     const float step = static_cast<float>(x) - 650;
-    for (auto& plane : rgb) plane[i] = y == 8 ? 0.5f + 0.0005f * step : y == 12 ? 4.99f + 0.004f * step : plane[i];
+    for (auto& plane : rgb)
+      plane[i] = y == 8 ? 0.5f + 0.0005f * step : y == 12 ? 4.99f + 0.004f * step : plane[i];
     if (y == 16 && x % 97 == 5) rgb[x % 3][i] = x % 2 ? NAN : -INFINITY;
     if (y == 17 && x % 197 == 5) rgb[x % 3][i] = x % 2 ? NAN : INFINITY;
   }
@@ -116,7 +117,8 @@ TEST_P(Skips, are_the_bits_of_every_pixel_by_itself) {
       for (std::size_t c = 0; c < 3; ++c) {
         const std::vector<std::uint32_t> got = test::read_bits(seen, 0, 0, 0, std::string(1, "RGB"[c]));
         EXPECT_TRUE(std::equal(got.begin(), got.end(), expected.plane[c].begin(), expected.plane[c].end()))
-            << "La " << adaptation << ", tiles of " << GetParam() << ", " << threads << " threads, channel " << c;
+            << "La " << adaptation << ", tiles of " << GetParam() << ", " << threads << " threads, channel "
+            << c;
       }
     }
   }

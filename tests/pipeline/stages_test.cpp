@@ -95,7 +95,8 @@ TEST(NoiseStage, lies_in_the_display_window_whatever_the_data_window_is) {
   int same = 0;
   for (int y = 11; y < 60; ++y)
     for (int x = 40; x < 141; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y * 300 + x), j = static_cast<std::size_t>((y - 11) * 101 + x - 40);
+      const std::size_t i = static_cast<std::size_t>(y * 300 + x),
+                        j = static_cast<std::size_t>((y - 11) * 101 + x - 40);
       if (before[i] != before_crop[j]) continue;  // the test's pixels go by the data window
       ASSERT_EQ(after[i], after_crop[j]) << x << ' ' << y;
       ++same;
@@ -110,7 +111,7 @@ TEST(NoiseStage, is_in_a_still_where_it_is_named_and_in_a_sequence_where_it_is_c
     double adaptation;
     const char* effects;
     bool sequence, runs;
-  } rows[] = {{0.001, "auto", false, false}, {0.001, "auto", true, true},     {0.001, "noise", false, true},
+  } rows[] = {{0.001, "auto", false, false}, {0.001, "auto", true, true},      {0.001, "noise", false, true},
               {0.0029, "auto", true, true},  {0.0029757, "auto", true, false}, {1, "auto", true, false}};
   for (const auto& row : rows) {
     ImageSettings s = settings(row.adaptation, row.effects);
@@ -146,7 +147,8 @@ TEST(TimeStage, what_is_seen_out_of_bright_light_is_the_exposure_s_share) {
 }
 
 TEST(TimeStage, bleached_rods_shift_no_colour) {
-  const std::string in = temporary("time.exr"), adapted = temporary("time-adapted.exr"), out = temporary("time-bleached.exr");
+  const std::string in = temporary("time.exr"), adapted = temporary("time-adapted.exr"),
+                    out = temporary("time-bleached.exr");
   write_exr(in, {picture()});
   run(in, adapted, settings(0.01, "shift"));
   ImageSettings s = settings(0.01, "shift");
@@ -204,7 +206,8 @@ TEST(LampStage, takes_a_lamp_s_white_as_far_to_d65_as_the_degree_says) {
   // CIECAM02: D at 0.01 cd/m2 in an average surround.
   EXPECT_NEAR(report.scene.plan.effect("lamp").number, 0.824052, 1e-6);
   const Matrix3<double>& xyz = s.choice.parameters.xyz_from_rgb;
-  const Matrix3<double> m = inverse(xyz) * (adapt_to_lamp({1.2, 1, 0.3}, report.scene.plan.effect("lamp").number) * xyz);
+  const Matrix3<double> m =
+      inverse(xyz) * (adapt_to_lamp({1.2, 1, 0.3}, report.scene.plan.effect("lamp").number) * xyz);
   std::vector<std::uint32_t> planes[3], results[3];
   for (std::size_t c = 0; c < 3; ++c) {
     planes[c] = read_bits(in, 0, 0, 0, std::string(1, "RGB"[c]));
@@ -229,8 +232,7 @@ TEST(LampStage, what_leaves_the_gamut_fades_at_its_luminance) {
   int faded = 0;
   const Vec3<double> y = s.choice.parameters.xyz_from_rgb[1];
   const Matrix3<double>& xyz = s.choice.parameters.xyz_from_rgb;
-  const Matrix3<double> m =
-      inverse(xyz) * (adapt_to_lamp({1.3, 1, 0.05}, adaptation_degree(0.01)) * xyz);
+  const Matrix3<double> m = inverse(xyz) * (adapt_to_lamp({1.3, 1, 0.05}, adaptation_degree(0.01)) * xyz);
   std::vector<std::uint32_t> planes[3], results[3];
   for (std::size_t c = 0; c < 3; ++c) {
     planes[c] = read_bits(in, 0, 0, 0, std::string(1, "RGB"[c]));
@@ -255,7 +257,8 @@ TEST(LampStage, what_leaves_the_gamut_fades_at_its_luminance) {
 TEST(LampStage, no_lamp_or_d65_changes_no_bit) {
   const std::string in = temporary("lamp.exr"), out = temporary("lamp-out.exr");
   write_exr(in, {picture()});
-  for (const std::optional<Vec3<double>>& lamp : {std::optional<Vec3<double>>(), std::optional(adapted_white)}) {
+  for (const std::optional<Vec3<double>>& lamp :
+       {std::optional<Vec3<double>>(), std::optional(adapted_white)}) {
     ImageSettings s = settings(0.01, "none");
     s.choice.lamp = lamp;
     EXPECT_FALSE(run(in, out, s).scene.plan.effect("lamp").runs());

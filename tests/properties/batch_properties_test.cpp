@@ -82,7 +82,8 @@ TEST(BatchProperties, every_simd_target_gives_the_same_bits) {
   constexpr bool compiled_for_one = (HWY_TARGETS & (HWY_TARGETS - 1)) == 0;
   const auto targets = hwy::SupportedAndGeneratedTargets();
   if (compiled_for_one || targets.size() == 1)
-    GTEST_SKIP() << (compiled_for_one ? "compiled for one target" : "this machine has but one of the targets");
+    GTEST_SKIP() << (compiled_for_one ? "compiled for one target"
+                                      : "this machine has but one of the targets");
   std::set<std::string> compared;
   for_all(
       seeds(),
@@ -95,7 +96,8 @@ TEST(BatchProperties, every_simd_target_gives_the_same_bits) {
           hwy::SetSupportedTargetsForTest(target);
           Rows rows(row.samples);
           batch.apply(rows.view(row.planes));
-          if (std::strcmp(simd_target(), "Unknown") != 0) compared.insert(simd_target());  // the library may have fewer
+          if (std::strcmp(simd_target(), "Unknown") != 0)
+            compared.insert(simd_target());  // the library may have fewer
           const auto got = row_bits(rows);
           if (expected.empty()) expected = got;
           if (got != expected) hwy::SetSupportedTargetsForTest(0);
@@ -143,7 +145,8 @@ TEST(BatchProperties, pixels_side_by_side_give_what_planes_give_and_alpha_keeps_
         std::vector<float> rgba;
         std::vector<std::uint32_t> alpha;
         for (const Sample& sample : row.samples) {
-          alpha.push_back(static_cast<std::uint32_t>(random.bits()));  // any bits: NaNs of every payload among them
+          alpha.push_back(
+              static_cast<std::uint32_t>(random.bits()));  // any bits: NaNs of every payload among them
           rgba.insert(rgba.end(), sample.rgb.begin(), sample.rgb.end());
           rgba.push_back(std::bit_cast<float>(alpha.back()));
           coverage("alpha is NaN", std::isnan(rgba.back()));
@@ -161,54 +164,55 @@ TEST(BatchProperties, pixels_side_by_side_give_what_planes_give_and_alpha_keeps_
 }
 
 TEST(BatchProperties, where_two_faces_of_the_gamut_meet_no_result_slips_out) {
-  // Between two pixels that end on different faces, halving finds the two floats where one face takes over; there both
-  // faces' solutions are the same to rounding, and rounding must not decide for a negative component.
-  for_all(
-      seeds(),
-      [](std::uint64_t seed, Coverage& coverage) {
-        Random random(seed);
-        AppearanceParameters p;
-        p.model = random.chance(0.5) ? Model::kirk2011 : Model::filament2021;
-        p.adaptation = random.log_uniform(1e-4, 1e-2);
-        p.white_luminance = p.adaptation;
-        p.luminance = LuminancePolicy::none;
-        p.strength.chroma = 0;
-        p.xyz_from_rgb = p.xyz_from_gamut.emplace(rec709);
-        const bool single = random.chance(0.7);
-        const AppearanceBatch batch(p, single ? Precision::single : Precision::dual);
-        Sample ends[2];
-        for (Sample& end : ends) {
-          for (auto& x : end.rgb) x = static_cast<float>(random.log_uniform(1e-4, 1));
-          for (auto& x : end.cones) x = static_cast<float>(random.log_uniform(1e-3, 1e6));  // gains of any ratio
-          end.rod = static_cast<float>(random.log_uniform(1, 1e4));
-        }
-        const auto at = [&](float t) {
-          Sample s = ends[0];
-          for (std::size_t i = 0; i < 3; ++i) {
-            s.rgb[i] += t * (ends[1].rgb[i] - ends[0].rgb[i]);
-            s.cones[i] += t * (ends[1].cones[i] - ends[0].cones[i]);
-          }
-          s.rod += t * (ends[1].rod - ends[0].rod);
-          Rows rows({s});
-          batch.apply(rows.view(Planes::all));
-          for (const float x : rows.rgb(0)) RC_ASSERT(x >= 0);
-          return rows.rgb(0);
-        };
-        const auto faces = [](const Rgb& v) { return (v[0] == 0) + 2 * (v[1] == 0) + 4 * (v[2] == 0); };
-        float low = 0, high = 1;
-        const int first = faces(at(low)), last = faces(at(high));
-        // From inside to a face there is nothing to choose: the sign of a component decides.
-        const bool between_faces = first != last && first && last;
-        RC_PRE(between_faces);
-        coverage("single", single);
-        coverage("dual", !single);
-        while (std::nextafter(low, high) < high) {
-          const float middle = low + (high - low) / 2;
-          if (middle == low || middle == high) break;
-          (faces(at(middle)) == first ? low : high) = middle;
-        }
-      },
-      {{"single", 0.5}, {"dual", 0.2}});
+  // Between two pixels that end on different faces, halving finds the two floats where one face takes over;
+  // there both faces' solutions are the same to rounding, and rounding must not decide for a negative
+  // component.
+  for_all(seeds(),
+          [](std::uint64_t seed, Coverage& coverage) {
+            Random random(seed);
+            AppearanceParameters p;
+            p.model = random.chance(0.5) ? Model::kirk2011 : Model::filament2021;
+            p.adaptation = random.log_uniform(1e-4, 1e-2);
+            p.white_luminance = p.adaptation;
+            p.luminance = LuminancePolicy::none;
+            p.strength.chroma = 0;
+            p.xyz_from_rgb = p.xyz_from_gamut.emplace(rec709);
+            const bool single = random.chance(0.7);
+            const AppearanceBatch batch(p, single ? Precision::single : Precision::dual);
+            Sample ends[2];
+            for (Sample& end : ends) {
+              for (auto& x : end.rgb) x = static_cast<float>(random.log_uniform(1e-4, 1));
+              for (auto& x : end.cones)
+                x = static_cast<float>(random.log_uniform(1e-3, 1e6));  // gains of any ratio
+              end.rod = static_cast<float>(random.log_uniform(1, 1e4));
+            }
+            const auto at = [&](float t) {
+              Sample s = ends[0];
+              for (std::size_t i = 0; i < 3; ++i) {
+                s.rgb[i] += t * (ends[1].rgb[i] - ends[0].rgb[i]);
+                s.cones[i] += t * (ends[1].cones[i] - ends[0].cones[i]);
+              }
+              s.rod += t * (ends[1].rod - ends[0].rod);
+              Rows rows({s});
+              batch.apply(rows.view(Planes::all));
+              for (const float x : rows.rgb(0)) RC_ASSERT(x >= 0);
+              return rows.rgb(0);
+            };
+            const auto faces = [](const Rgb& v) { return (v[0] == 0) + 2 * (v[1] == 0) + 4 * (v[2] == 0); };
+            float low = 0, high = 1;
+            const int first = faces(at(low)), last = faces(at(high));
+            // From inside to a face there is nothing to choose: the sign of a component decides.
+            const bool between_faces = first != last && first && last;
+            RC_PRE(between_faces);
+            coverage("single", single);
+            coverage("dual", !single);
+            while (std::nextafter(low, high) < high) {
+              const float middle = low + (high - low) / 2;
+              if (middle == low || middle == high) break;
+              (faces(at(middle)) == first ? low : high) = middle;
+            }
+          },
+          {{"single", 0.5}, {"dual", 0.2}});
 }
 
 TEST(BatchProperties, a_strength_too_small_for_the_number_type_changes_no_bit) {

@@ -1,4 +1,5 @@
-// Three-vectors and 3x3 matrices of the exact reference: its own, so that a fault of the product's would show.
+// Three-vectors and 3x3 matrices of the exact reference: its own, so that a fault of the product's would
+// show.
 #pragma once
 
 #include <array>

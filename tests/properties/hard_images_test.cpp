@@ -73,8 +73,10 @@ Image read(const std::string& file) {
   return image;
 }
 
-/// An image through files, as apply does; sigma of the acuity filter in pixels, 0: none. `found`: what was reported.
-Image applied(const Image& image, double sigma = 0, NonFinite policy = NonFinite::keep, NonFinitePixels* found = nullptr) {
+/// An image through files, as apply does; sigma of the acuity filter in pixels, 0: none. `found`: what was
+/// reported.
+Image applied(const Image& image, double sigma = 0, NonFinite policy = NonFinite::keep,
+              NonFinitePixels* found = nullptr) {
   const auto folder = std::filesystem::temp_directory_path() / ("hard-images-" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   const std::string in = (folder / "in.exr").string(), out = (folder / "out.exr").string();
@@ -114,7 +116,8 @@ Image night(int width, int height) {
   Image image(width, height);
   Random random(3);
   for (std::size_t i = 0; i < image.size(); ++i) {
-    const auto level = static_cast<float>(0.05 + random.uniform(0, 0.2) + 0.002 * static_cast<double>(i % 97));
+    const auto level =
+        static_cast<float>(0.05 + random.uniform(0, 0.2) + 0.002 * static_cast<double>(i % 97));
     image.set(i, level, 0.8f * level, static_cast<float>(random.uniform(0, 0.3)));
   }
   return image;
@@ -126,7 +129,8 @@ std::vector<std::size_t> ring(const Image& image) {
   const double x0 = image.width / 2.0, y0 = image.height / 2.0, radius = image.width / 4.0;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
-      if (std::abs(std::hypot(x - x0, y - y0) - radius) < 1) out.push_back(static_cast<std::size_t>(y * image.width + x));
+      if (std::abs(std::hypot(x - x0, y - y0) - radius) < 1)
+        out.push_back(static_cast<std::size_t>(y * image.width + x));
   return out;
 }
 
@@ -143,7 +147,8 @@ TEST(HardImages, a_ring_of_bad_pixels_keeps_its_bits_and_touches_no_other) {
       for (std::size_t i = 0; i < in.size(); ++i) {
         if (in.finite(i)) {
           ASSERT_TRUE(out.finite(i)) << "sigma " << sigma << " pixel " << i;
-          ASSERT_EQ(out.bits(i), result.bits(i)) << "sigma " << sigma << ": what a bad pixel holds shows at " << i;
+          ASSERT_EQ(out.bits(i), result.bits(i))
+              << "sigma " << sigma << ": what a bad pixel holds shows at " << i;
         } else {
           ASSERT_EQ(out.bits(i), in.bits(i)) << "sigma " << sigma << " pixel " << i;
         }
@@ -206,7 +211,8 @@ TEST(HardImages, every_half_value_in_every_channel_stays_what_it_can) {
     const half x(half::FromBits, static_cast<std::uint16_t>(h));
     return static_cast<float>(x);
   };
-  for (std::size_t i = 0; i < image.size(); ++i) image.set(i, value(i), value((i * 7919 + 3) % 65536), value((i * 104729 + 11) % 65536));
+  for (std::size_t i = 0; i < image.size(); ++i)
+    image.set(i, value(i), value((i * 7919 + 3) % 65536), value((i * 104729 + 11) % 65536));
   for (const double sigma : {0.0, 3.0}) {
     const Image out = applied(image, sigma);
     int bad = 0;
@@ -220,8 +226,9 @@ TEST(HardImages, every_half_value_in_every_channel_stays_what_it_can) {
 
 TEST(HardImages, huge_negative_and_noisy_pixels_stay_finite_and_leave_the_far_away_alone) {
   const Image plain = night(61, 47), sound = applied(plain, 2.0);
-  for (const auto& hard : {std::array{3e38f, 1.0f, 1.0f}, std::array{-3e38f, -3e38f, -3e38f}, std::array{1e30f, -1e30f, 1e-40f},
-                           std::array{-0.01f, 0.02f, -0.03f}, std::array{1e6f, 1e6f, 1e6f}}) {
+  for (const auto& hard :
+       {std::array{3e38f, 1.0f, 1.0f}, std::array{-3e38f, -3e38f, -3e38f}, std::array{1e30f, -1e30f, 1e-40f},
+        std::array{-0.01f, 0.02f, -0.03f}, std::array{1e6f, 1e6f, 1e6f}}) {
     Image in = plain;
     const std::size_t where = 20 * 61 + 30;
     in.set(where, hard[0], hard[1], hard[2]);
@@ -243,7 +250,8 @@ TEST(HardImages, a_lamp_of_one_pixel_stays_a_lamp_and_lifts_no_neighbour) {
   EXPECT_EQ(out.bits(where), in.bits(where)) << "photopic, and unlike all around it";
   for (const std::size_t beside : {where - 1, where + 1, where - 61, where + 61})
     for (std::size_t c = 0; c < 3; ++c)
-      EXPECT_NEAR(out.planes[c][beside], without.planes[c][beside], 0.05f * without.planes[c][beside] + 0.01f);
+      EXPECT_NEAR(out.planes[c][beside], without.planes[c][beside],
+                  0.05f * without.planes[c][beside] + 0.01f);
 }
 
 }  // namespace

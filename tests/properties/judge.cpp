@@ -38,7 +38,8 @@ double component_error(const Vec3<double>& got, const Summed<long double>& exact
 }
 
 template <typename Real>
-double relative_error(const Vec3<double>& got, const Vec3<Real>& exact, const Sample& in, Planes planes, Way way) {
+double relative_error(const Vec3<double>& got, const Vec3<Real>& exact, const Sample& in, Planes planes,
+                      Way way) {
   using std::abs;
   double size = least_size(way), worst = 0;
   size = std::max(size, size_in(in, planes));
@@ -55,7 +56,8 @@ template double relative_error(const Vec3<double>&, const Vec3<long double>&, co
 Strain strain(const OperatorConstants& c, const Sample& sample, Planes planes) {
   const ReferencePixel pixel = sample.widened(planes);
   const bool operable = size_in(sample, planes) <= operable_limit;
-  const bool photopic = c.parameters.model != Model::safko2019 && local_luminance(c, pixel.rgb) >= photopic_limit;
+  const bool photopic =
+      c.parameters.model != Model::safko2019 && local_luminance(c, pixel.rgb) >= photopic_limit;
   if (!operable || photopic) return {};
   const double rod = std::max(0.0, pixel.rod ? *pixel.rod : rod_signal_from_rgb(c, pixel.rgb));
   Strain out;
@@ -65,7 +67,8 @@ Strain strain(const OperatorConstants& c, const Sample& sample, Planes planes) {
   for (std::size_t i = 0; i < 3; ++i) {
     double q = 0, magnitude = 0;
     for (std::size_t j = 0; j < 3; ++j) {
-      const double term = pixel.cones ? (j == i ? (*pixel.cones)[i] : 0) : c.lms_from_rgb[i][j] * pixel.rgb[j];
+      const double term =
+          pixel.cones ? (j == i ? (*pixel.cones)[i] : 0) : c.lms_from_rgb[i][j] * pixel.rgb[j];
       q += term, magnitude += std::abs(term);
     }
     const double gain = c.kernel.gain()[i] * c.parameters.white_luminance;
@@ -95,9 +98,9 @@ double allowed_error(Way way, RodEstimate rods, const Strain& strain) {
 std::string to_text(Regime regime, Way way, const Worst& w) {
   char numbers[300];
   std::snprintf(numbers, sizeof numbers, "%s,%s,%d,%.3g,%a,%a,%a,%a,%a,%a,%a,", name(regime),
-                way_names[static_cast<std::size_t>(way)], static_cast<int>(w.planes), w.error, w.sample.rgb[0],
-                w.sample.rgb[1], w.sample.rgb[2], w.sample.cones[0], w.sample.cones[1], w.sample.cones[2],
-                w.sample.rod);
+                way_names[static_cast<std::size_t>(way)], static_cast<int>(w.planes), w.error,
+                w.sample.rgb[0], w.sample.rgb[1], w.sample.rgb[2], w.sample.cones[0], w.sample.cones[1],
+                w.sample.cones[2], w.sample.rod);
   return numbers + w.setting;
 }
 

@@ -35,14 +35,15 @@ struct Failures {
   std::string first, first_component;
 };
 
-// What was drawn: of each regime how many, how many of them so ill-conditioned that 1e-6 and more is allowed in double,
-// too, and the largest allowance; of each threshold, how many within 8 ulp of it.
+// What was drawn: of each regime how many, how many of them so ill-conditioned that 1e-6 and more is allowed
+// in double, too, and the largest allowance; of each threshold, how many within 8 ulp of it.
 struct Coverage {
   std::array<long, regime_count> drawn{}, lenient{};
   std::array<double, regime_count> most{};
   std::array<long, threshold_count> at{};
 
-  void add(Regime regime, const OperatorConstants& c, const Sample& sample, Planes planes, const Strain& strained) {
+  void add(Regime regime, const OperatorConstants& c, const Sample& sample, Planes planes,
+           const Strain& strained) {
     const auto r = static_cast<std::size_t>(regime);
     const double allowed = allowed_in_double(strained);
     ++drawn[r];
@@ -58,8 +59,9 @@ struct Coverage {
 
 // Light, of which every component counts by itself.
 bool is_light(Regime regime) {
-  constexpr std::array light = {Regime::ordinary,           Regime::grey,          Regime::equal_cones,
-                                Regime::threshold_photopic, Regime::opponent_zero, Regime::threshold_scotopic};
+  constexpr std::array light = {Regime::ordinary,      Regime::grey,
+                                Regime::equal_cones,   Regime::threshold_photopic,
+                                Regime::opponent_zero, Regime::threshold_scotopic};
   return std::find(light.begin(), light.end(), regime) != light.end();
 }
 
@@ -93,7 +95,8 @@ void judge_setting(Random& random, int each, Table& table, Failures& failures, C
     const Summed<long double> expected = exact.with_terms(pixel);
     const auto regime = static_cast<Regime>(i / static_cast<std::size_t>(each));
     const auto widen = [](const std::array<float, 3>& v) { return Vec3<double>{v[0], v[1], v[2]}; };
-    const std::array<Vec3<double>, ways> got = {way.reference(pixel), widen(single.rgb(i)), widen(dual.rgb(i))};
+    const std::array<Vec3<double>, ways> got = {way.reference(pixel), widen(single.rgb(i)),
+                                                widen(dual.rgb(i))};
     const Strain strained = strain(way.reference.constants(), sample, planes);
     coverage.add(regime, way.reference.constants(), sample, planes, strained);
     for (std::size_t w = 0; w < ways; ++w) {
@@ -103,7 +106,9 @@ void judge_setting(Random& random, int each, Table& table, Failures& failures, C
       Worst& worst = table[static_cast<std::size_t>(regime)][w];
       note(worst, error, planes, p, sample);
       if (!strained.cancelled) worst.component = std::max(worst.component, component);
-      const auto where = [&] { return to_text(regime, this_way, {error, component, planes, to_text(p), sample, {}}); };
+      const auto where = [&] {
+        return to_text(regime, this_way, {error, component, planes, to_text(p), sample, {}});
+      };
       if (!(error <= allowed_error(this_way, p.rods, strained)) && failures.above_bound++ == 0)
         failures.first = where();
       if (!is_light(regime) || strained.cancelled) continue;
@@ -133,15 +138,18 @@ void write_histogram(const Table& table, const char* path) {
 }
 
 void report(const Table& table, const Coverage& coverage, double draws) {
-  std::printf("worst relative error, %.3g pixels: of the pixel's largest component; of each component's own terms\n%-20s",
-              draws, "");
+  std::printf(
+      "worst relative error, %.3g pixels: of the pixel's largest component; of each component's own "
+      "terms\n%-20s",
+      draws, "");
   for (int twice = 0; twice < 2; ++twice)
     for (const char* way : way_names) std::printf(" %10s", way);
   std::printf(" %10s\n", "over 1e-6");
   for (std::size_t r = 0; r < regime_count; ++r) {
     const auto& row = table[r];
-    std::printf("%-20s %10.2e %10.2e %10.2e %10.2e %10.2e %10.2e %9.3f%% (%.2g)\n", name(static_cast<Regime>(r)),
-                row[0].error, row[1].error, row[2].error, row[0].component, row[1].component, row[2].component,
+    std::printf("%-20s %10.2e %10.2e %10.2e %10.2e %10.2e %10.2e %9.3f%% (%.2g)\n",
+                name(static_cast<Regime>(r)), row[0].error, row[1].error, row[2].error, row[0].component,
+                row[1].component, row[2].component,
                 100 * static_cast<double>(coverage.lenient[r]) / static_cast<double>(coverage.drawn[r]),
                 coverage.most[r]);
   }
@@ -154,7 +162,8 @@ void report(const Table& table, const Coverage& coverage, double draws) {
     file << "# regime,way,planes (0 RGB, 1 with rods, 2 with cones),error,R,G,B,L,M,S,rod,setting\n";
     for (int r = 0; r < regime_count; ++r)
       for (std::size_t w = 0; w < ways; ++w)
-        file << to_text(static_cast<Regime>(r), static_cast<Way>(w), table[static_cast<std::size_t>(r)][w]) << '\n';
+        file << to_text(static_cast<Regime>(r), static_cast<Way>(w), table[static_cast<std::size_t>(r)][w])
+             << '\n';
   }
   if (const char* path = std::getenv("SCOTOPIC_HISTOGRAM")) write_histogram(table, path);
 }
@@ -177,7 +186,8 @@ TEST(Millions, every_regime_stays_within_its_bound_of_exact_arithmetic) {
     const auto regime = static_cast<Regime>(r);
     const auto drawn = static_cast<double>(coverage.drawn[r]);
     EXPECT_GE(drawn, draws / regime_count) << name(regime);
-    EXPECT_LE(static_cast<double>(coverage.lenient[r]), (regime == Regime::kernel_clamp ? 0.05 : 1e-4) * drawn)
+    EXPECT_LE(static_cast<double>(coverage.lenient[r]),
+              (regime == Regime::kernel_clamp ? 0.05 : 1e-4) * drawn)
         << "pixels that may err by 1e-6 in double: " << name(regime);
   }
   for (std::size_t t = 0; t < threshold_count; ++t)
@@ -195,11 +205,14 @@ TEST(Millions, the_worst_pixels_ever_found_stay_within_their_bounds) {
     way.single.apply(single.view(k.planes));
     way.dual.apply(dual.view(k.planes));
     const auto widen = [](const std::array<float, 3>& v) { return Vec3<double>{v[0], v[1], v[2]}; };
-    const std::array<Vec3<double>, ways> got = {way.reference(pixel), widen(single.rgb(0)), widen(dual.rgb(0))};
+    const std::array<Vec3<double>, ways> got = {way.reference(pixel), widen(single.rgb(0)),
+                                                widen(dual.rgb(0))};
     const Strain strained = strain(way.reference.constants(), k.sample, k.planes);
     for (std::size_t w = 0; w < ways; ++w)
-      EXPECT_LE(relative_error(got[w], expected, k.sample, k.planes, static_cast<Way>(w)), allowed_error(static_cast<Way>(w), k.parameters.rods, strained))
-          << name(k.regime) << ", " << way_names[w] << ", found by " << way_names[static_cast<std::size_t>(k.way)];
+      EXPECT_LE(relative_error(got[w], expected, k.sample, k.planes, static_cast<Way>(w)),
+                allowed_error(static_cast<Way>(w), k.parameters.rods, strained))
+          << name(k.regime) << ", " << way_names[w] << ", found by "
+          << way_names[static_cast<std::size_t>(k.way)];
   }
 }
 

@@ -1,4 +1,5 @@
-// A 256-bit number with the operators of a built-in one (GNU MPFR), so that one text of a formula serves both.
+// A 256-bit number with the operators of a built-in one (GNU MPFR), so that one text of a formula serves
+// both.
 #pragma once
 
 #include <mpfr.h>
@@ -10,7 +11,10 @@ namespace scotopic::test {
 /// 256 bits of mantissa, round to nearest, and an exponent range no formula here can leave.
 class Mp {
  public:
-  Mp() { mpfr_init2(value_, precision); mpfr_set_zero(value_, 1); }
+  Mp() {
+    mpfr_init2(value_, precision);
+    mpfr_set_zero(value_, 1);
+  }
   Mp(double x) : Mp() { mpfr_set_d(value_, x, MPFR_RNDN); }  // NOLINT: a number like any other
   Mp(const Mp& other) : Mp() { mpfr_set(value_, other.value_, MPFR_RNDN); }
   Mp(Mp&& other) noexcept : Mp() { mpfr_swap(value_, other.value_); }
@@ -85,6 +89,8 @@ inline Mp abs(const Mp& x) { return Mp::of(mpfr_abs, x); }
 template <typename Real>
 Real decimal(const char* text);
 template <>
-inline Mp decimal<Mp>(const char* text) { return Mp::parse(text); }
+inline Mp decimal<Mp>(const char* text) {
+  return Mp::parse(text);
+}
 
 }  // namespace scotopic::test

@@ -40,7 +40,7 @@ const std::array<const TabulatedCurve*, 3> matching_curves = {
 // Sum of products of two sets of curves over whole nanometres.
 template <typename Real, std::size_t N>
 Square<Real> curve_products(const std::array<const TabulatedCurve*, N>& rows,
-                             const std::array<const TabulatedCurve*, 3>& columns, int first, int last) {
+                            const std::array<const TabulatedCurve*, 3>& columns, int first, int last) {
   Square<Real> out;
   for (int nm = first; nm <= last; ++nm)
     for (std::size_t i = 0; i < N; ++i)
@@ -91,8 +91,8 @@ Square<Real> filament_rows() {
   const Real big_k = d("45"), big_s = d("10"), k3 = d("0.6"), rw = d("0.139"), p = d("0.6189");
   const Real one = Real(1);
   const Square<Real> pathways{{{{-(k3 + rw), one + k3 * rw, Real(0)},
-                                 {p * k3, (one - p) * k3, one},
-                                 {p * big_s, (one - p) * big_s, Real(0)}}}};
+                                {p * k3, (one - p) * k3, one},
+                                {p * big_s, (one - p) * big_s, Real(0)}}}};
   const Triple<Real> inputs = {d("0.2") / d("0.63721"), d("0.2") / d("0.39242"), d("0.3") / d("1.6064")};
   return (big_k / big_s) * (pathways * diagonal_of(inputs));
 }
@@ -116,8 +116,8 @@ Real scotopic_luminance(const Triple<Real>& xyz, RodEstimate estimate, const Rea
     const Real cx = at_least_0(xyz[0]), cy = at_least_0(xyz[1]), sum = cx + cy + at_least_0(xyz[2]);
     if (sum > Real(0)) {
       const Real x = cx / sum, y = cy / sum;
-      under_d65 = sum * (d("0.92170706") - d("3.50414354") * x + d("3.71453552") * y + d("3.20585581") * x * x -
-                         d("4.58382815") * x * y - d("0.72925479") * y * y);
+      under_d65 = sum * (d("0.92170706") - d("3.50414354") * x + d("3.71453552") * y +
+                         d("3.20585581") * x * x - d("4.58382815") * x * y - d("0.72925479") * y * y);
     }
   }
   const Real scotopic = under_d65 * sp / d("2.4648"), floor = d("0.016") * xyz[1];
@@ -134,9 +134,12 @@ bool operable(const ReferencePixel& pixel) {
 template <typename Real>
 Real kernel_scale(const AppearanceParameters& p) {
   switch (p.model) {
-    case Model::safko2019: return Real(p.safko_scale);
-    case Model::filament2021: return dec<Real>("19885.9");  // 380 * 52.3313, its spot-meter anchor
-    case Model::kirk2011: break;
+    case Model::safko2019:
+      return Real(p.safko_scale);
+    case Model::filament2021:
+      return dec<Real>("19885.9");  // 380 * 52.3313, its spot-meter anchor
+    case Model::kirk2011:
+      break;
   }
   const Real d = exact_pupil_diameter(Real(p.adaptation));
   return atan(Real(1)) * d * d;  // pi/4 D^2
@@ -220,7 +223,8 @@ ExactSetting<Real>::ExactSetting(const AppearanceParameters& p) : parameters(p) 
   rgb_from_gamut = rgb_from_xyz * xyz_from_gamut;
   lms_from_gamut = lms_from_xyz * xyz_from_gamut;
   const bool filament = p.model == Model::filament2021;
-  kappa = filament ? Triple<Real>{d("0.2"), d("0.2"), d("0.3")} : Triple<Real>{d("0.25"), d("0.25"), d("0.4")};
+  kappa =
+      filament ? Triple<Real>{d("0.2"), d("0.2"), d("0.3")} : Triple<Real>{d("0.25"), d("0.25"), d("0.4")};
   const Real g = d("0.33");
   gain = filament ? Triple<Real>{g / d("0.63721"), g / d("0.39242"), g / d("1.6064")} : Triple<Real>{g, g, g};
   cone_shift = inverse_of_opponent_transform<Real>() * (filament ? filament_rows<Real>() : kirk_rows<Real>());
@@ -236,7 +240,8 @@ Triple<Real> ExactOperator<Real>::damped_rods(const Triple<Real>& q, const Real&
   const Real rods = s_.scale * at_least_0(r);
   Triple<Real> signal;
   for (std::size_t i = 0; i < 3; ++i)
-    signal[i] = rods / sqrt(Real(Real(1) + at_least_0(Real(s_.gain[i] * (s_.scale * q[i] + s_.kappa[i] * rods)))));
+    signal[i] =
+        rods / sqrt(Real(Real(1) + at_least_0(Real(s_.gain[i] * (s_.scale * q[i] + s_.kappa[i] * rods)))));
   return times(Real(Real(1) / s_.scale), signal);
 }
 
@@ -318,7 +323,8 @@ Summed<Real> ExactOperator<Real>::with_terms(const ReferencePixel& pixel) const 
   };
 
   if (w > Real(0)) {
-    const Triple<Real> rods = times(Real(Real(1) / unit), damped_rods(times(unit, q.value), Real(unit * rod)));
+    const Triple<Real> rods =
+        times(Real(Real(1) / unit), damped_rods(times(unit, q.value), Real(unit * rod)));
     out.value = plus(out.value, s_.rgb_from_lms * (s_.cone_shift * times(w, rods)));
     // Of w = 1 - m: 1, however little is left near 4.998 cd/m2.
     out.terms = plus(out.terms, absolute(s_.rgb_from_lms) * (absolute(s_.cone_shift) * times(full, rods)));

@@ -1,6 +1,6 @@
-// The appearance operator a second time, written from the formulas of docs/model.md and the papers it names, with
-// an algebra of its own: in 256 bits to judge double, and in long double where millions of pixels are judged.
-// Shared with the product: the types a pixel and a setting come in, and the measured curves, which
+// The appearance operator a second time, written from the formulas of docs/model.md and the papers it names,
+// with an algebra of its own: in 256 bits to judge double, and in long double where millions of pixels are
+// judged. Shared with the product: the types a pixel and a setting come in, and the measured curves, which
 // tests/receptors/tables_test.cpp holds to their publications.
 #pragma once
 
@@ -30,18 +30,18 @@ struct ExactSetting {
   explicit ExactSetting(const AppearanceParameters& parameters);
 
   AppearanceParameters parameters;
-  Real units_per_watt;            // k
+  Real units_per_watt;  // k
   Square<Real> lms_from_rgb, rgb_from_lms, gamut_from_rgb, rgb_from_gamut, lms_from_gamut, rgb_from_lms_safko;
   Square<Real> xyz_from_rgb;
-  Square<Real> cone_shift;       // A^-1 N
+  Square<Real> cone_shift;  // A^-1 N
   Triple<Real> kappa, gain;
-  Triple<Real> cone_white;          // q of image white
-  Real scale;                     // T
+  Triple<Real> cone_white;  // q of image white
+  Real scale;               // T
   Real rod_white;
 };
 
-/// A result, and beside each component the sum of |terms| of the linear combinations it is made of, stage after stage:
-/// what its own rounding errors are measured by.
+/// A result, and beside each component the sum of |terms| of the linear combinations it is made of, stage
+/// after stage: what its own rounding errors are measured by.
 template <typename Real>
 struct Summed {
   Triple<Real> value, terms;

@@ -1,5 +1,6 @@
 // Functions of one variable at every float, against extended precision, and that against 256 bits.
-//   SCOTOPIC_STRIDE=1     the long form, all 2^32 bit patterns (minutes a function; default: every 4096th, and edges);
+//   SCOTOPIC_STRIDE=1     the long form, all 2^32 bit patterns (minutes a function; default: every 4096th,
+//   and edges);
 //                         one function alone by --gtest_filter='*/OneVariable.*/gain_float'
 //   SCOTOPIC_HISTOGRAM_ULP=FILE  adds the share of results in each octave of ulp
 #pragma once
@@ -28,7 +29,9 @@ namespace scotopic::test {
 using Extended = long double;
 
 // floor(log2 |x|) of normal numbers, from their bits: ilogb() would take most of the sweep's time.
-inline int exponent_of(double x) { return static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52 & 0x7ff) - 1023; }
+inline int exponent_of(double x) {
+  return static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52 & 0x7ff) - 1023;
+}
 inline int exponent_of(Extended x) {
   std::uint16_t sign_and_exponent;
   std::memcpy(&sign_and_exponent, reinterpret_cast<const char*>(&x) + 8, sizeof sign_and_exponent);
@@ -40,8 +43,9 @@ static_assert(std::numeric_limits<Extended>::digits == 64, "written for the x87'
 inline Extended spacing(Extended x, int digits, int least_exponent) {
   const int exponent = std::max(exponent_of(x), least_exponent) - digits + 1;
   // -1074 at least: a power of two that double holds, subnormal or not.
-  return exponent >= -1022 ? Extended(std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52))
-                           : std::ldexp(1.0L, exponent);
+  return exponent >= -1022
+             ? Extended(std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52))
+             : std::ldexp(1.0L, exponent);
 }
 inline Extended ulp_of_double(Extended x) { return spacing(x, 53, -1022); }
 inline Extended ulp_of_float(Extended x) { return spacing(x, 24, -126); }
@@ -89,7 +93,8 @@ struct WorstFloat {
 // Constants at which a formula changes, and the floats around them.
 inline std::vector<float> edges() {
   constexpr float tiny = std::numeric_limits<float>::denorm_min(), huge = std::numeric_limits<float>::max();
-  std::vector<float> out = {0, -0.0f, tiny, 0x1p-126f, huge, 1, 5, 4.998f, 0.00203f, 0.001f, 1e-5f, 216.0f / 24389, 6.0f / 29};
+  std::vector<float> out = {0,      -0.0f,    tiny,   0x1p-126f, huge,           1,        5,
+                            4.998f, 0.00203f, 0.001f, 1e-5f,     216.0f / 24389, 6.0f / 29};
   const std::size_t count = out.size();
   for (std::size_t i = 0; i < count; ++i)
     for (const float towards : {-INFINITY, INFINITY}) {
@@ -132,7 +137,8 @@ inline void expect_within_bound(const Function& f) {
   }
 }
 
-/// Floats of the domain that the judge itself is judged at: the edges, and some thousand bit patterns evenly spaced.
+/// Floats of the domain that the judge itself is judged at: the edges, and some thousand bit patterns evenly
+/// spaced.
 inline std::vector<float> judged_at(const Function& f) {
   std::vector<float> out;
   const auto add = [&](float x) {

@@ -36,7 +36,8 @@ using std::abs, std::atan, std::cbrt, std::log10, std::sqrt;
 
 template <typename Real>
 Real exact_lab_f(const Real& t) {
-  static const Real edge = Real(216) / Real(24389), slope = Real(841) / Real(108), offset = Real(4) / Real(29);
+  static const Real edge = Real(216) / Real(24389), slope = Real(841) / Real(108),
+                    offset = Real(4) / Real(29);
   return t > edge ? cbrt(t) : t * slope + offset;
 }
 template <typename Real>
@@ -50,8 +51,8 @@ Real exact_lightness(const Real& t) {
   return exact_lab_f(t) - at_black;
 }
 
-// The operator in float on a light that rods do not see, eye dark: what MES2 leaves of its luminance, 1 at 4.998 cd/m2,
-// 0 at .00203. By the batch's own logarithm and polynomial.
+// The operator in float on a light that rods do not see, eye dark: what MES2 leaves of its luminance, 1
+// at 4.998 cd/m2, 0 at .00203. By the batch's own logarithm and polynomial.
 float mesopic_share_of_batch(float luminance, Precision precision) {
   static const AppearanceParameters parameters = [] {
     AppearanceParameters p;
@@ -97,8 +98,9 @@ Real exact_trolands(const Real& la) {
 }
 template <typename Real>
 Real exact_cutoff(const Real& l) {
-  static const Real least = decimal<Real>("1e-5"), scale = decimal<Real>("17.25"), slope = decimal<Real>("1.4"),
-                    shift = decimal<Real>("0.35"), offset = decimal<Real>("25.72");
+  static const Real least = decimal<Real>("1e-5"), scale = decimal<Real>("17.25"),
+                    slope = decimal<Real>("1.4"), shift = decimal<Real>("0.35"),
+                    offset = decimal<Real>("25.72");
   return scale * atan(Real(slope * log10(Real(std::max(l, least))) + shift)) + offset;
 }
 
@@ -108,49 +110,49 @@ const Kernel<float> kernel_float(kernel_preset(Model::kirk2011), 1.0);
 
 const Function functions[] = {
     {"gain_double", -huge, huge, 3,
-     [](float q) { return kernel.gains({static_cast<double>(q), 0, 0}, 0)[0]; },
+     [](float q) {
+       return kernel.gains({static_cast<double>(q), 0, 0}, 0)[0];
+     },
      exact_gain<Extended>, exact_gain<Mp>, ulp_of_double},
     {"gain_float", -huge, 1e38f, 3,
-     [](float q) -> double { return kernel_float.gains({q, 0, 0}, 0)[0]; },
+     [](float q) -> double {
+       return kernel_float.gains({q, 0, 0}, 0)[0];
+     },
      exact_gain<Extended>, exact_gain<Mp>, ulp_of_float},
-    {"mesopic_coefficient", 0, huge, 2,
-     [](float l) { return mesopic_coefficient(static_cast<double>(l)); },
+    {"mesopic_coefficient", 0, huge, 2, [](float l) { return mesopic_coefficient(static_cast<double>(l)); },
      exact_mesopic<Extended>, exact_mesopic<Mp>, ulp_at_1},
     {"mesopic_share_float", 1e-20f, 4.9999f, 4,
-     [](float l) -> double { return mesopic_share_of_batch(l, Precision::single); },
-     exact_share<Extended>, exact_share<Mp>, ulp_of_float_at_1},
+     [](float l) -> double { return mesopic_share_of_batch(l, Precision::single); }, exact_share<Extended>,
+     exact_share<Mp>, ulp_of_float_at_1},
     {"mesopic_share_dual", 1e-20f, 4.9999f, 1.5,
-     [](float l) -> double { return mesopic_share_of_batch(l, Precision::dual); },
-     exact_share<Extended>, exact_share<Mp>, ulp_of_float_at_1},
-    {"pupil_diameter", 0, huge, 2,
-     [](float l) { return pupil_diameter_mm(static_cast<double>(l)); },
+     [](float l) -> double { return mesopic_share_of_batch(l, Precision::dual); }, exact_share<Extended>,
+     exact_share<Mp>, ulp_of_float_at_1},
+    {"pupil_diameter", 0, huge, 2, [](float l) { return pupil_diameter_mm(static_cast<double>(l)); },
      exact_pupil_diameter<Extended>, exact_pupil_diameter<Mp>, ulp_of_double},
-    {"trolands", 0, huge, 6,
-     [](float l) { return trolands_per_luminance(static_cast<double>(l)); },
+    {"trolands", 0, huge, 6, [](float l) { return trolands_per_luminance(static_cast<double>(l)); },
      exact_trolands<Extended>, exact_trolands<Mp>, ulp_of_double},
-    {"chroma_factor_double", 0, huge, 4,
-     [](float l) { return chroma_factor(static_cast<double>(l)); },
+    {"chroma_factor_double", 0, huge, 4, [](float l) { return chroma_factor(static_cast<double>(l)); },
      exact_chroma_factor<Extended>, exact_chroma_factor<Mp>, ulp_of_double},
-    {"chroma_factor_float", 0, 1e38f, 4,
-     [](float l) -> double { return chroma_factor(l); },
+    {"chroma_factor_float", 0, 1e38f, 4, [](float l) -> double { return chroma_factor(l); },
      exact_chroma_factor<Extended>, exact_chroma_factor<Mp>, ulp_of_float},
-    {"acuity_cutoff", 0, huge, 32,
-     [](float l) { return acuity_cutoff(static_cast<double>(l)); },
+    {"acuity_cutoff", 0, huge, 32, [](float l) { return acuity_cutoff(static_cast<double>(l)); },
      exact_cutoff<Extended>, exact_cutoff<Mp>, ulp_at_1},
     {"lab_lightness", -1e30f, 1e30f, 5,
-     [](float t) { return lab_from_xyz({0, static_cast<double>(t), 0}).lightness / 116; },
+     [](float t) {
+       return lab_from_xyz({0, static_cast<double>(t), 0}).lightness / 116;
+     },
      exact_lightness<Extended>, exact_lightness<Mp>, ulp_at_1},
-    {"acuity_lab_f_float", 1e-3f, 1e10f, 9,
-     [](float t) -> double { return lab_f_float(t); },
+    {"acuity_lab_f_float", 1e-3f, 1e10f, 9, [](float t) -> double { return lab_f_float(t); },
      exact_lab_f<Extended>, exact_lab_f<Mp>, ulp_of_float},
-    {"acuity_lab_f_inverse_float", 0.21f, 2e3f, 2,
-     [](float f) -> double { return lab_f_inverse_float(f); },
+    {"acuity_lab_f_inverse_float", 0.21f, 2e3f, 2, [](float f) -> double { return lab_f_inverse_float(f); },
      exact_lab_f_inverse<Extended>, exact_lab_f_inverse<Mp>, ulp_of_float},
 };
 
 TEST_P(OneVariable, every_float_is_within_its_function_s_bound) { expect_within_bound(GetParam()); }
 
-TEST_P(OneVariable, its_judge_agrees_with_256_bits_to_a_hundredth_of_an_ulp) { expect_sound_judge(GetParam()); }
+TEST_P(OneVariable, its_judge_agrees_with_256_bits_to_a_hundredth_of_an_ulp) {
+  expect_sound_judge(GetParam());
+}
 
 INSTANTIATE_TEST_SUITE_P(All, OneVariable, testing::ValuesIn(functions),
                          [](const auto& test) { return std::string(test.param.name); });

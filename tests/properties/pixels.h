@@ -16,8 +16,12 @@ namespace scotopic::test {
 
 using Rgb = std::array<float, 3>;
 
-inline std::array<std::uint32_t, 3> bits(const Rgb& v) { return std::bit_cast<std::array<std::uint32_t, 3>>(v); }
-inline std::array<std::uint64_t, 3> bits(const Vec3<double>& v) { return std::bit_cast<std::array<std::uint64_t, 3>>(v); }
+inline std::array<std::uint32_t, 3> bits(const Rgb& v) {
+  return std::bit_cast<std::array<std::uint32_t, 3>>(v);
+}
+inline std::array<std::uint64_t, 3> bits(const Vec3<double>& v) {
+  return std::bit_cast<std::array<std::uint64_t, 3>>(v);
+}
 
 template <typename V>
 double largest(const V& v) {
@@ -38,7 +42,8 @@ inline double local_luminance(const AppearanceReference& op, const Vec3<double>&
   return local_luminance(op.constants(), rgb);
 }
 
-/// A light: no component and no cone signal negative, and luminance not under 1/64 of the cone signals, white's being 1.
+/// A light: no component and no cone signal negative, and luminance not under 1/64 of the cone signals,
+/// white's being 1.
 inline bool is_light(const Case& c, double least_luminance = luminance_floor) {
   const OperatorConstants constants(c.parameters);
   const Vec3<double> rgb = {c.sample.rgb[0], c.sample.rgb[1], c.sample.rgb[2]};
@@ -49,7 +54,8 @@ inline bool is_light(const Case& c, double least_luminance = luminance_floor) {
   return largest(rgb) <= operable_limit && largest(rgb) > 1e-30;
 }
 
-/// Spaces an image may come in, of D65 white: BT.709, BT.2020, ACEScg, and an AP0-like one with imaginary primaries.
+/// Spaces an image may come in, of D65 white: BT.709, BT.2020, ACEScg, and an AP0-like one with imaginary
+/// primaries.
 struct WorkingSpace {
   const char* name;
   Matrix3<double> xyz_from_rgb;
@@ -66,7 +72,9 @@ inline Shares all_working_spaces(Shares more = {}) {
   return more;
 }
 
-inline const WorkingSpace& any_space(Random& random) { return working_spaces[static_cast<std::size_t>(random.below(4))]; }
+inline const WorkingSpace& any_space(Random& random) {
+  return working_spaces[static_cast<std::size_t>(random.below(4))];
+}
 
 inline const std::vector<Regime> no_light = {Regime::subnormal, Regime::tiny, Regime::huge};
 

@@ -1,4 +1,5 @@
-// RapidCheck under GoogleTest: a fixed number of checks, a fixed seed, and coverage that is asserted, not hoped for.
+// RapidCheck under GoogleTest: a fixed number of checks, a fixed seed, and coverage that is asserted, not
+// hoped for.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -29,14 +30,15 @@ struct Case {
 
 inline std::ostream& operator<<(std::ostream& out, const Case& c) {
   char text[300];
-  std::snprintf(text, sizeof text, "%s, planes %d, rgb (%.9g, %.9g, %.9g) cones (%.9g, %.9g, %.9g) rod %.9g, setting ",
+  std::snprintf(text, sizeof text,
+                "%s, planes %d, rgb (%.9g, %.9g, %.9g) cones (%.9g, %.9g, %.9g) rod %.9g, setting ",
                 name(c.regime), static_cast<int>(c.planes), c.sample.rgb[0], c.sample.rgb[1], c.sample.rgb[2],
                 c.sample.cones[0], c.sample.cones[1], c.sample.cones[2], c.sample.rod);
   return out << text << to_text(c.parameters);
 }
 
-/// Counts the checks that were of a kind. A check has a kind once, however often it says so, and only when it has ended:
-/// a draw that the property does not apply to (RC_PRE) is no check.
+/// Counts the checks that were of a kind. A check has a kind once, however often it says so, and only when it
+/// has ended: a draw that the property does not apply to (RC_PRE) is no check.
 class Coverage {
  public:
   void operator()(const std::string& kind, bool yes = true) {
@@ -109,9 +111,10 @@ inline rc::Gen<std::uint64_t> seeds() {
 
 inline constexpr int usual_checks = 10000;
 
-/// Checks property(value, coverage) on values of `gen` until `checks` of them have been checked to the end; what RC_PRE
-/// refuses is drawn again, at most 10 times as often as checked. Fails with the simplest counterexample found, if too few
-/// values apply, or if fewer checks than required were of a kind. SCOTOPIC_SEED draws others.
+/// Checks property(value, coverage) on values of `gen` until `checks` of them have been checked to the end;
+/// what RC_PRE refuses is drawn again, at most 10 times as often as checked. Fails with the simplest
+/// counterexample found, if too few values apply, or if fewer checks than required were of a kind.
+/// SCOTOPIC_SEED draws others.
 template <typename T, typename Property>
 void for_all(const rc::Gen<T>& gen, Property property, const Shares& required, int checks = usual_checks) {
   Coverage coverage;
@@ -148,7 +151,8 @@ inline Shares all_regimes(std::vector<Regime> without = {}, Shares more = {}, do
 }
 
 /// The operator by one way on one pixel.
-inline std::array<float, 3> applied(const AppearanceBatch& batch, const Case& c, std::uint8_t* touched = nullptr) {
+inline std::array<float, 3> applied(const AppearanceBatch& batch, const Case& c,
+                                    std::uint8_t* touched = nullptr) {
   Rows rows({c.sample});
   batch.apply(rows.view(c.planes), touched);
   return rows.rgb(0);

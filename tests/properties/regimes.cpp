@@ -15,22 +15,38 @@
 namespace scotopic::test {
 namespace {
 
-constexpr std::array<const char*, regime_count> names = {
-    "ordinary",      "zero",        "subnormal",  "tiny",          "huge",
-    "half_extremes", "grey",        "opponent_zero", "pure_rods",  "one_channel",
-    "negative",      "out_of_gamut", "threshold_photopic", "threshold_scotopic", "threshold_floor",
-    "luminance_zero", "kernel_clamp", "projection_face", "mixed_exponents", "equal_cones"};
+constexpr std::array<const char*, regime_count> names = {"ordinary",
+                                                         "zero",
+                                                         "subnormal",
+                                                         "tiny",
+                                                         "huge",
+                                                         "half_extremes",
+                                                         "grey",
+                                                         "opponent_zero",
+                                                         "pure_rods",
+                                                         "one_channel",
+                                                         "negative",
+                                                         "out_of_gamut",
+                                                         "threshold_photopic",
+                                                         "threshold_scotopic",
+                                                         "threshold_floor",
+                                                         "luminance_zero",
+                                                         "kernel_clamp",
+                                                         "projection_face",
+                                                         "mixed_exponents",
+                                                         "equal_cones"};
 
 constexpr std::array<const char*, threshold_count> threshold_names = {
-    "Lloc 5", "Lloc 4.998", "Lloc .005", "Lloc .00203", "Lloc .001", "L = M", "L = M = S", "Y = largest/64",
-    "q + kappa r = 0", "face of the gamut", "2^120"};
+    "Lloc 5",    "Lloc 4.998",     "Lloc .005",       "Lloc .00203",       "Lloc .001", "L = M",
+    "L = M = S", "Y = largest/64", "q + kappa r = 0", "face of the gamut", "2^120"};
 
 // In cd/m2, of the first five.
 const std::array<double, 5> local_luminances = {photopic_limit, mesopic_photopic_limit(), 0.005,
                                                 mesopic_scotopic_limit(), 0.001};
 
 // A wide gamut, sums of primaries equal to white's: AP0-like, with imaginary primaries.
-constexpr Matrix3<double> ap0_like = xyz_from_rgb({0.7347, 0.0, 0.0001}, {0.2653, 1.0, -0.077}, 0.3127, 0.3290);
+constexpr Matrix3<double> ap0_like =
+    xyz_from_rgb({0.7347, 0.0, 0.0001}, {0.2653, 1.0, -0.077}, 0.3127, 0.3290);
 const std::array<Matrix3<double>, 4> spaces = {rec709, rec2020, ap0_like, identity3<double>()};
 
 // Of 0: up to four of the smallest subnormals on either side, the nearest to a face that a float comes.
@@ -99,14 +115,15 @@ double rod_of(const OperatorConstants& c, const ReferencePixel& pixel) {
   return std::max(0.0, pixel.rod ? *pixel.rod : rod_signal_from_rgb(c, pixel.rgb));
 }
 
-// Components of the gamut after the shift, before the projection, by the product in double: to aim, not to judge.
+// Components of the gamut after the shift, before the projection, by the product in double: to aim, not to
+// judge.
 std::array<Sum, 3> shifted(const OperatorConstants& c, const ReferencePixel& pixel) {
   const auto& p = c.parameters;
   const Vec3<double> q = cones_of(c, pixel);
   const double unit = p.white_luminance;
   const double w = c.shift * (1 - mesopic_coefficient(local_luminance(c, pixel.rgb))) / unit;
-  const Vec3<double> rgb = c.rgb_from_lms * c.kernel.shift({unit * q[0], unit * q[1], unit * q[2]},
-                                                           unit * rod_of(c, pixel));
+  const Vec3<double> rgb =
+      c.rgb_from_lms * c.kernel.shift({unit * q[0], unit * q[1], unit * q[2]}, unit * rod_of(c, pixel));
   std::array<Sum, 3> out;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
@@ -125,7 +142,9 @@ std::optional<Rgb> on_a_face(const OperatorConstants& c, Random& random) {
     Rgb b = a;
     b[static_cast<std::size_t>(random.below(3))] *= random.uniform(0, 0.1);
     for (std::size_t k = 0; k < 3; ++k)
-      if (const auto found = crossing(a, b, [&](const Rgb& rgb) { return shifted(c, {rgb, {}, {}})[k].value; }))
+      if (const auto found = crossing(a, b, [&](const Rgb& rgb) {
+            return shifted(c, {rgb, {}, {}})[k].value;
+          }))
         return found;
   }
   return std::nullopt;
@@ -158,19 +177,23 @@ Rgb draw_rgb(Regime regime, const OperatorConstants& c, Random& random) {
       for (auto& x : rgb)
         if (random.chance(0.6)) x = random.chance(0.5) ? -0.0 : 0.0;
       return rgb;
-    case Regime::subnormal: return signed_values(1.5e-45, 1.1e-38);
-    case Regime::tiny: return signed_values(1e-38, 1e-20);
+    case Regime::subnormal:
+      return signed_values(1.5e-45, 1.1e-38);
+    case Regime::tiny:
+      return signed_values(1e-38, 1e-20);
     case Regime::huge:
       if (random.chance(0.2)) return signed_values(1e36, 3.4e38);
       rgb = signed_values(1e20, operable_limit);
       if (random.chance(0.4)) rgb[any] = random.sign() * operable_limit;
       return rgb;
     case Regime::half_extremes: {
-      constexpr std::array<double, 6> ends = {65504, -65504, 5.9604644775390625e-8, 6.103515625e-5, 0, 6.1e-5};
+      constexpr std::array<double, 6> ends = {65504,          -65504, 5.9604644775390625e-8,
+                                              6.103515625e-5, 0,      6.1e-5};
       for (auto& x : rgb) x = ends[static_cast<std::size_t>(random.below(6))];
       return rgb;
     }
-    case Regime::grey: return {rgb[0], rgb[0], rgb[0]};
+    case Regime::grey:
+      return {rgb[0], rgb[0], rgb[0]};
     case Regime::opponent_zero: {
       Vec3<double> row;
       for (std::size_t i = 0; i < 3; ++i) row[i] = c.lms_from_rgb[0][i] - c.lms_from_rgb[1][i];
@@ -185,8 +208,11 @@ Rgb draw_rgb(Regime regime, const OperatorConstants& c, Random& random) {
       rgb[any] = x;
       return rgb;
     }
-    case Regime::negative: return signed_values(1e-6 / unit, 1e2 / unit);
-    case Regime::out_of_gamut: rgb[any] *= -random.log_uniform(1e-6, 10); return rgb;
+    case Regime::negative:
+      return signed_values(1e-6 / unit, 1e2 / unit);
+    case Regime::out_of_gamut:
+      rgb[any] *= -random.log_uniform(1e-6, 10);
+      return rgb;
     case Regime::threshold_photopic:
       return at_local_luminance(rgb, reachable(0, 1, c, random), c);
     case Regime::threshold_scotopic:
@@ -208,7 +234,8 @@ Rgb draw_rgb(Regime regime, const OperatorConstants& c, Random& random) {
         return solved_for(c.luminance_from_rgb, rgb, rest);
       }
       const double largest = std::abs(rgb[0]) + std::abs(rgb[1]) + std::abs(rgb[2]);
-      return solved_for(c.luminance_from_rgb, rgb, random.chance(0.3) ? 0 : largest * random.log_uniform(1e-9, 1e-3));
+      return solved_for(c.luminance_from_rgb, rgb,
+                        random.chance(0.3) ? 0 : largest * random.log_uniform(1e-9, 1e-3));
     }
     case Regime::kernel_clamp: {
       const double kappa_rod = 0.15 * (rgb[0] + rgb[1] + rgb[2]) * random.uniform(0, 2);
@@ -222,14 +249,17 @@ Rgb draw_rgb(Regime regime, const OperatorConstants& c, Random& random) {
     case Regime::projection_face:
       if (random.chance(0.7))
         if (const auto found = on_a_face(c, random)) return *found;
-      rgb[any] *= random.chance(0.3) ? 0.0 : 1e-3 * random.uniform(-1, 1); return rgb;
-    case Regime::mixed_exponents: return signed_values(1e-30, 1e30);
+      rgb[any] *= random.chance(0.3) ? 0.0 : 1e-3 * random.uniform(-1, 1);
+      return rgb;
+    case Regime::mixed_exponents:
+      return signed_values(1e-30, 1e30);
     case Regime::equal_cones: {
       const double cone = random.log_uniform(low, high);
       return c.rgb_from_lms * Vec3<double>{cone, cone, cone};
     }
     case Regime::ordinary:
-    case Regime::count: break;
+    case Regime::count:
+      break;
   }
   return rgb;
 }
@@ -247,7 +277,9 @@ double Random::uniform(double from, double to) {
   return from + (to - from) * (static_cast<double>(bits() >> 11) * 0x1p-53);
 }
 
-double Random::log_uniform(double from, double to) { return from * std::exp2(uniform(0, std::log2(to / from))); }
+double Random::log_uniform(double from, double to) {
+  return from * std::exp2(uniform(0, std::log2(to / from)));
+}
 
 const char* name(Regime regime) { return names[static_cast<std::size_t>(regime)]; }
 
@@ -282,12 +314,14 @@ bool is_at(Threshold threshold, const OperatorConstants& c, const Sample& sample
       if (!c.project || !(c.shift > 0) || c.parameters.model == Model::safko2019) return false;
       if (!(local_luminance(c, pixel.rgb) < mesopic_photopic_limit())) return false;
       const auto sums = shifted(c, pixel);
-      return std::any_of(sums.begin(), sums.end(), [](const Sum& sum) { return sum.terms > 0 && sum.is_0(); });
+      return std::any_of(sums.begin(), sums.end(),
+                         [](const Sum& sum) { return sum.terms > 0 && sum.is_0(); });
     }
     case Threshold::operable:
       return std::any_of(pixel.rgb.begin(), pixel.rgb.end(),
                          [&](double x) { return near(std::abs(x), operable_limit); });
-    default: return near(local_luminance(c, pixel.rgb), local_luminances[static_cast<std::size_t>(threshold)]);
+    default:
+      return near(local_luminance(c, pixel.rgb), local_luminances[static_cast<std::size_t>(threshold)]);
   }
 }
 
@@ -321,7 +355,9 @@ PixelRows Rows::view(Planes planes) {
 
 AppearanceParameters draw_parameters(Random& random) {
   AppearanceParameters p;
-  p.model = random.chance(0.5) ? Model::filament2021 : random.chance(0.8) ? Model::kirk2011 : Model::safko2019;
+  p.model = random.chance(0.5)   ? Model::filament2021
+            : random.chance(0.8) ? Model::kirk2011
+                                 : Model::safko2019;
   p.adaptation = random.log_uniform(1e-6, 6);
   const double threshold = local_luminances[static_cast<std::size_t>(random.below(5))];
   if (random.chance(0.1)) p.adaptation = few_ulp(static_cast<float>(threshold), random);
@@ -330,7 +366,9 @@ AppearanceParameters draw_parameters(Random& random) {
   p.luminance = random.chance(0.7)   ? LuminancePolicy::mesopic
                 : random.chance(0.5) ? LuminancePolicy::photopic
                                      : LuminancePolicy::none;
-  const auto strength = [&] { return random.chance(0.6) ? 1.0 : random.chance(0.2) ? 0.0 : random.uniform(0, 1); };
+  const auto strength = [&] {
+    return random.chance(0.6) ? 1.0 : random.chance(0.2) ? 0.0 : random.uniform(0, 1);
+  };
   p.strength = {strength(), strength(), strength(), strength()};
   p.rods = random.chance(0.7) ? RodEstimate::linear : RodEstimate::quadratic;
   p.sp_ratio = random.chance(0.6) ? sp_ratio_d65 : random.log_uniform(0.3, 3);
@@ -349,13 +387,15 @@ Sample draw(Regime regime, const OperatorConstants& c, Random& random) {
   const Rgb rgb = draw_rgb(regime, c, random);
   Sample out;
   for (std::size_t i = 0; i < 3; ++i) out.rgb[i] = static_cast<float>(rgb[i]);
-  constexpr std::array edges = {Regime::threshold_photopic, Regime::threshold_scotopic, Regime::threshold_floor,
-                                Regime::luminance_zero,     Regime::projection_face,    Regime::opponent_zero,
-                                Regime::equal_cones,        Regime::kernel_clamp,       Regime::huge};
+  constexpr std::array edges = {
+      Regime::threshold_photopic, Regime::threshold_scotopic, Regime::threshold_floor,
+      Regime::luminance_zero,     Regime::projection_face,    Regime::opponent_zero,
+      Regime::equal_cones,        Regime::kernel_clamp,       Regime::huge};
   const bool edge = std::find(edges.begin(), edges.end(), regime) != edges.end();
   if (edge && random.chance(0.8))
     for (auto& x : out.rgb) x = few_ulp(x, random);
-  // Receptors of a spectrum agree with RGB but roughly: metamers differ. Where an edge is to be met, they agree.
+  // Receptors of a spectrum agree with RGB but roughly: metamers differ. Where an edge is to be met, they
+  // agree.
   const Vec3<double> q = c.lms_from_rgb * Vec3<double>(rgb);
   constexpr double largest = std::numeric_limits<float>::max();
   for (std::size_t i = 0; i < 3; ++i) {
@@ -389,9 +429,10 @@ std::string to_text(const AppearanceParameters& p) {
     std::snprintf(text, sizeof text, "%a ", x);
     out += text;
   };
-  for (const double x : {static_cast<double>(p.model), p.adaptation, p.white_luminance, static_cast<double>(p.weight),
-                         static_cast<double>(p.luminance), p.strength.all, p.strength.shift, p.strength.luminance,
-                         p.strength.chroma, static_cast<double>(p.rods), p.sp_ratio, p.safko_scale})
+  for (const double x :
+       {static_cast<double>(p.model), p.adaptation, p.white_luminance, static_cast<double>(p.weight),
+        static_cast<double>(p.luminance), p.strength.all, p.strength.shift, p.strength.luminance,
+        p.strength.chroma, static_cast<double>(p.rods), p.sp_ratio, p.safko_scale})
     add(x);
   for (const auto& row : p.xyz_from_rgb.rows)
     for (const double x : row) add(x);

@@ -1,4 +1,5 @@
-// The functions of one variable of a look: OpenColorIO's logarithms as a look uses them, and the axes of its LUT.
+// The functions of one variable of a look: OpenColorIO's logarithms as a look uses them, and the axes of its
+// LUT.
 #include <OpenColorIO/OpenColorIO.h>
 
 #include <gtest/gtest.h>
@@ -24,28 +25,35 @@ double by_ocio(LogStyle style, float x) {
     chain.steps = {LogStep{log}};
     return cpu_processor(ocio_transform(chain), OCIO::Config::CreateRaw());
   };
-  static const OCIO::ConstCPUProcessorRcPtr forward = made(LogStyle::log2), inverse = made(LogStyle::antilog2);
+  static const OCIO::ConstCPUProcessorRcPtr forward = made(LogStyle::log2),
+                                            inverse = made(LogStyle::antilog2);
   float rgb[3] = {x, x, x};
   (style == LogStyle::log2 ? forward : inverse)->applyRGB(rgb);
   return rgb[1];
 }
 
 template <typename Real>
-Real exact_log2(const Real& x) { return log2(x); }
+Real exact_log2(const Real& x) {
+  return log2(x);
+}
 template <typename Real>
-Real exact_exp2(const Real& x) { return exp2(x); }
+Real exact_exp2(const Real& x) {
+  return exp2(x);
+}
 
 Extended ulp_of_float_at_1(Extended x) { return spacing(std::max(1.0L, std::abs(x)), 24, -126); }
 
 // Of levels, which begin at -80.
 Extended ulp_of_80(Extended) { return 0x1p-46L; }
 
-// An axis as bake/axes.h has it: the integral of a density by midpoints, 2^14 - 1 steps, straight between them.
+// An axis as bake/axes.h has it: the integral of a density by midpoints, 2^14 - 1 steps, straight between
+// them.
 template <typename Real>
 class ExactAxis {
  public:
   template <typename Density>
-  ExactAxis(double low, double high, Density density) : low_(low), step_((Real(high) - Real(low)) / Real(steps)) {
+  ExactAxis(double low, double high, Density density)
+      : low_(low), step_((Real(high) - Real(low)) / Real(steps)) {
     table_.emplace_back(0);
     for (int i = 0; i < steps; ++i)
       table_.push_back(table_.back() + density(Real(low_ + step_ * (Real(i) + Real(0.5)))));
@@ -74,11 +82,13 @@ class ExactAxis {
   std::vector<Real> table_;
 };
 
-// Nodes per stop: a root of 5.4 below 2^-8, even, a root of 2.5 above 2^6, a bump at 2^5.2, a floor of a tenth.
+// Nodes per stop: a root of 5.4 below 2^-8, even, a root of 2.5 above 2^6, a bump at 2^5.2, a floor of a
+// tenth.
 template <typename Real>
 Real level_density(const Real& x) {
-  static const Real dark_root = decimal<Real>("5.4"), bright_root = decimal<Real>("2.5"), bend = decimal<Real>("5.2"),
-                    width = decimal<Real>("0.7"), height = decimal<Real>("1.5"), tenth = decimal<Real>("0.1");
+  static const Real dark_root = decimal<Real>("5.4"), bright_root = decimal<Real>("2.5"),
+                    bend = decimal<Real>("5.2"), width = decimal<Real>("0.7"), height = decimal<Real>("1.5"),
+                    tenth = decimal<Real>("0.1");
   const Real one(1), root = exp2(Real((x + Real(8)) / dark_root)), off = (x - bend) / width;
   const Real even = one / (one / root + one + exp2(Real((x - Real(6)) / bright_root)));
   return even * (one + height * exp(Real(-(off * off) / Real(2)))) + tenth * (root < one ? root : one);
@@ -102,13 +112,21 @@ const ExactAxis<Real>& share_axis() {
   return axis;
 }
 template <typename Real>
-Real exact_level_position(const Real& x) { return level_axis<Real>().position(x); }
+Real exact_level_position(const Real& x) {
+  return level_axis<Real>().position(x);
+}
 template <typename Real>
-Real exact_level(const Real& t) { return level_axis<Real>().inverse(t); }
+Real exact_level(const Real& t) {
+  return level_axis<Real>().inverse(t);
+}
 template <typename Real>
-Real exact_share_position(const Real& u) { return share_axis<Real>().position(u); }
+Real exact_share_position(const Real& u) {
+  return share_axis<Real>().position(u);
+}
 template <typename Real>
-Real exact_share(const Real& t) { return share_axis<Real>().inverse(t); }
+Real exact_share(const Real& t) {
+  return share_axis<Real>().inverse(t);
+}
 
 const LevelAxis level(brightest);
 const ShareAxis share;
@@ -130,7 +148,9 @@ const Function functions[] = {
 
 TEST_P(OneVariable, every_float_is_within_its_function_s_bound) { expect_within_bound(GetParam()); }
 
-TEST_P(OneVariable, its_judge_agrees_with_256_bits_to_a_hundredth_of_an_ulp) { expect_sound_judge(GetParam()); }
+TEST_P(OneVariable, its_judge_agrees_with_256_bits_to_a_hundredth_of_an_ulp) {
+  expect_sound_judge(GetParam());
+}
 
 INSTANTIATE_TEST_SUITE_P(Look, OneVariable, testing::ValuesIn(functions),
                          [](const auto& test) { return std::string(test.param.name); });

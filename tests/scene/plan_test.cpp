@@ -19,7 +19,8 @@ struct Scene {
   std::vector<float> r, g, b;
   SceneStatistics measured(const AppearanceParameters& p) {
     SceneStatistics s;
-    SceneMeter(p, r.size()).measure({r.data(), g.data(), b.data(), nullptr, nullptr, nullptr, nullptr, r.size()}, 0, s);
+    SceneMeter(p, r.size())
+        .measure({r.data(), g.data(), b.data(), nullptr, nullptr, nullptr, nullptr, r.size()}, 0, s);
     return s;
   }
 };
@@ -149,7 +150,8 @@ TEST(Plan, differences_name_the_effect_that_makes_them) {
   Scene colours{{0.3f, 0.05f}, {0.05f, 0.05f}, {0.02f, 0.4f}};
   const SceneStatistics s = colours.measured(request);
   const ScenePlan plan = plan_scene(request, &s);
-  for (const char* effect : {"shift", "luminance", "chroma"}) EXPECT_GT(plan.effect(effect).difference, 1) << effect;
+  for (const char* effect : {"shift", "luminance", "chroma"})
+    EXPECT_GT(plan.effect(effect).difference, 1) << effect;
 }
 
 }  // namespace

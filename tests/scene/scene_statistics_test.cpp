@@ -63,8 +63,10 @@ TEST(SceneStatistics, rows_may_be_measured_in_any_grouping) {
 
 TEST(SceneStatistics, pixels_that_are_not_finite_enter_no_number_and_are_counted) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
-  Picture picture{{0.1f, nan, inf, 0.1f, 5, 5, 5}, {0.1f, 1, 1, 0.1f, 5, 5, 5}, {0.1f, 1, -inf, 0.1f, 5, 5, 5}};
-  std::vector<float> rod = {0.1f, 0.1f, 0.1f, 0.1f, nan, inf, 0.1f}, cone = {0.1f, 0.1f, 0.1f, 0.1f, 5, 5, -inf};
+  Picture picture{
+      {0.1f, nan, inf, 0.1f, 5, 5, 5}, {0.1f, 1, 1, 0.1f, 5, 5, 5}, {0.1f, 1, -inf, 0.1f, 5, 5, 5}};
+  std::vector<float> rod = {0.1f, 0.1f, 0.1f, 0.1f, nan, inf, 0.1f},
+                     cone = {0.1f, 0.1f, 0.1f, 0.1f, 5, 5, -inf};
   PixelRows rows = picture.rows(0, 7);
   rows.rod = rod.data(), rows.cone_m = cone.data();
   SceneStatistics s, sound;
@@ -81,7 +83,8 @@ TEST(SceneStatistics, pixels_that_are_not_finite_enter_no_number_and_are_counted
   EXPECT_EQ(s.mean_scotopic(), sound.mean_scotopic());
 }
 
-TEST(SceneStatistics, finite_pixels_whose_luminance_is_not_a_float_enter_no_number_but_are_not_called_infinite) {
+TEST(SceneStatistics,
+     finite_pixels_whose_luminance_is_not_a_float_enter_no_number_but_are_not_called_infinite) {
   Picture picture{{3e38f, 0.1f}, {3e38f, 0.1f}, {3e38f, 0.1f}};
   SceneStatistics s;
   auto p = rec709();

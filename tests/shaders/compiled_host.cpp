@@ -110,10 +110,10 @@ std::unique_ptr<Host> osl_host(const std::string& compiler, const std::string& t
         fmt::format("extern \"C\" {{ float {} = static_cast<float>({}); }}\n", (*p)[1].str(), (*p)[2].str());
   std::string body = std::regex_replace(text, parameter, "");
   const std::string black = R"(color\(0.0, 0.0, 0.0\))";
-  body = std::regex_replace(
-      body,
-      std::regex(R"(shader scotopic\(\s*color Cin = )" + black + R"(,\s*output color Cout = )" + black + R"(\))"),
-      "static void scotopic(const color& Cin, color& Cout)");
+  body = std::regex_replace(body,
+                            std::regex(R"(shader scotopic\(\s*color Cin = )" + black +
+                                       R"(,\s*output color Cout = )" + black + R"(\))"),
+                            "static void scotopic(const color& Cin, color& Cout)");
   // Numbers of OSL are floats.
   body = std::regex_replace(
       body, std::regex(R"(([^\w.])(\d+(\.\d+)?(e[-+]?\d+)?|\d+\.\d*(e[-+]?\d+)?)(?![\w.\]]))"), "$1$2f");

@@ -73,13 +73,16 @@ TEST(Reference, reds_darken_and_blues_lift_in_the_dark) {
 }
 
 TEST(Reference, black_stays_black) {
-  for (const double la : {1e-6, 0.01, 1.0}) EXPECT_EQ(AppearanceReference(at(la))({{0, 0, 0}}), (Vec3<double>{0, 0, 0}));
+  for (const double la : {1e-6, 0.01, 1.0})
+    EXPECT_EQ(AppearanceReference(at(la))({{0, 0, 0}}), (Vec3<double>{0, 0, 0}));
 }
 
 TEST(Reference, from_five_candelas_up_every_pixel_is_returned_bit_for_bit) {
-  constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double inf = std::numeric_limits<double>::infinity(),
+                   nan = std::numeric_limits<double>::quiet_NaN();
   for (const double la : {5.0, 10.0, 1e5})
-    for (const Vec3<double>& rgb : {Vec3<double>{1, 0.5, 0.1}, {-1, -0.0, 5e-324}, {inf, 1, 1}, {nan, -inf, 2}, {1e308, 1e308, 1e308}})
+    for (const Vec3<double>& rgb :
+         {Vec3<double>{1, 0.5, 0.1}, {-1, -0.0, 5e-324}, {inf, 1, 1}, {nan, -inf, 2}, {1e308, 1e308, 1e308}})
       EXPECT_TRUE(same_bits(AppearanceReference(at(la))({rgb}), rgb));
 }
 
@@ -121,7 +124,9 @@ TEST(Reference, the_strength_of_all_mixes_result_and_input_so_that_a_slider_is_m
         p.strength.all = s;
         const Vec3<double> mixed = AppearanceReference(p)({rgb});
         for (std::size_t i = 0; i < 3; ++i)
-          EXPECT_NEAR(mixed[i], (1 - s) * rgb[i] + s * full[i], 1e-15 * std::abs(rgb[i]) + 1e-15 * std::abs(full[i])) << la << " " << s;
+          EXPECT_NEAR(mixed[i], (1 - s) * rgb[i] + s * full[i],
+                      1e-15 * std::abs(rgb[i]) + 1e-15 * std::abs(full[i]))
+              << la << " " << s;
       }
     }
 }
@@ -174,7 +179,8 @@ TEST(LuminanceRatio, is_exact_on_light_and_one_where_nothing_changes) {
   EXPECT_EQ(luminance_ratio(0.5, 0.25, 1), 0.5);
   EXPECT_EQ(luminance_ratio(-0.5, -0.25, 1), 0.5);
   EXPECT_EQ(luminance_ratio(-0.5, 0.25, 1), 0);
-  for (const double from : {-1.0, -1e-3, 0.0, 1e-9, 1.0}) EXPECT_NEAR(luminance_ratio(from, from, 1), 1, 3e-16);
+  for (const double from : {-1.0, -1e-3, 0.0, 1e-9, 1.0})
+    EXPECT_NEAR(luminance_ratio(from, from, 1), 1, 3e-16);
   EXPECT_EQ(luminance_ratio(0, 0, 0), 1);
   for (const double to : {-1.0, 0.0, 1.0}) {
     double before = luminance_ratio(-2, to, 1);

@@ -13,7 +13,8 @@ namespace scotopic {
 
 std::size_t edge_of(const BakeOptions& o) {
   if (o.size.empty()) return 0;
-  return choice<std::size_t>("--size", o.size, {{"auto", 0}, {"17", 17}, {"33", 33}, {"65", 65}, {"129", 129}});
+  return choice<std::size_t>("--size", o.size,
+                             {{"auto", 0}, {"17", 17}, {"33", 33}, {"65", 65}, {"129", 129}});
 }
 
 std::vector<double> adaptations_of(const BakeOptions& o) {
@@ -56,18 +57,23 @@ std::string display_of(const BakeOptions& o, const ColourConfig& config) {
 /// cd/m2; 1000 for displays of HDR.
 double peak_of(const BakeOptions& o, const ColourConfig& config, const std::string& display) {
   if (!o.peak.empty()) return number_in("--peak", o.peak, 1, 1e5, "a luminance in cd/m2, 1 to 1e5");
-  return std::string(config.ocio()->getColorSpace(display.c_str())->getEncoding()) == "hdr-video" ? 1000 : display_white;
+  return std::string(config.ocio()->getColorSpace(display.c_str())->getEncoding()) == "hdr-video"
+             ? 1000
+             : display_white;
 }
 
 /// The display stage behind the operator, and what its result is encoded for.
 void set_display(LookSpec& spec, const BakeOptions& o, const ColourConfig& config) {
   if (o.display.empty()) return;
   if (!spec.encoded && o.shader.empty())
-    throw Error(ExitCode::usage, "", "--display is of cubes: give --colorspace a log or display encoding (a config's views are "
-                                     "bake --config's)");
+    throw Error(ExitCode::usage, "",
+                "--display is of cubes: give --colorspace a log or display encoding (a config's views are "
+                "bake --config's)");
   spec.display = display_of(o, config);
   const auto encoding = config.encoding(config.space(spec.display));
-  if (!encoding) throw Error(ExitCode::config, config.file(), "'" + spec.display + "' is no encoding of a display's R, G, B");
+  if (!encoding)
+    throw Error(ExitCode::config, config.file(),
+                "'" + spec.display + "' is no encoding of a display's R, G, B");
   NightDisplayParameters& night = spec.night.emplace();
   night.peak = peak_of(o, config, spec.display);
   night.xyz_from_display = encoding->xyz_from_rgb;
@@ -124,10 +130,11 @@ void check_error(const BakeOptions& o, const BakedLook& look) {
 }
 
 nlohmann::ordered_json json_of(const BakedLook& look) {
-  nlohmann::ordered_json out = {{"look", look.chain.name}, {"adaptation", look.spec.parameters.adaptation},
-                                {"size", look.spec.edge},  {"mean", look.error.mean},
-                                {"p99", look.error.p99},   {"max", look.error.max},
-                                {"worstColour", look.error.worst}};
+  nlohmann::ordered_json out = {
+      {"look", look.chain.name},        {"adaptation", look.spec.parameters.adaptation},
+      {"size", look.spec.edge},         {"mean", look.error.mean},
+      {"p99", look.error.p99},          {"max", look.error.max},
+      {"worstColour", look.error.worst}};
   if (look.cube) {
     const BakeError& trilinear = look.cube->rec709.by_reading[1];
     out["trilinear"] = {{"mean", trilinear.mean}, {"p99", trilinear.p99}, {"max", trilinear.max}};

@@ -74,7 +74,8 @@ void add_display_options(CLI::App& verb, DisplayOptions& o) {
     verb.add_option(name, value, text)->type_name(kind)->group("Display");
   };
   add("--display", o.display,
-      "night[:DISPLAY]: as dark as the eye sees it (default for PNG, JPEG and TIFF of whole numbers); none: values alone "
+      "night[:DISPLAY]: as dark as the eye sees it (default for PNG, JPEG and TIFF of whole numbers); none: "
+      "values alone "
       "(default for the rest); or a view of the config, as it is",
       "WHAT");
   add("--tone", o.tone, "local: the literature's bilateral tone map in place of the display stage", "NAME");

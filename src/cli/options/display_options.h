@@ -20,8 +20,8 @@ struct DisplayOptions {
 
 void add_display_options(CLI::App& verb, DisplayOptions& options);
 
-/// Error(usage) for a value that is not understood, and for options of a stage that does not run. Sets the view of
-/// `request`, and whether the display stage runs.
+/// Error(usage) for a value that is not understood, and for options of a stage that does not run. Sets the
+/// view of `request`, and whether the display stage runs.
 DisplayChoice understand(const DisplayOptions& options, const StageValues& stages, ImageRequest& request);
 
 }  // namespace scotopic

@@ -15,7 +15,10 @@ namespace {
 constexpr std::int64_t primaries_file_size = 4096;
 
 void add_limit(CLI::App& verb, const char* name, std::int64_t& value, const char* text) {
-  verb.add_option(name, value, text)->check(whole_number(1, std::int64_t{1} << 62))->group("Limits")->capture_default_str();
+  verb.add_option(name, value, text)
+      ->check(whole_number(1, std::int64_t{1} << 62))
+      ->group("Limits")
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -32,7 +35,9 @@ void add_input_options(CLI::App& verb, ImageOptions& o) {
   add("--config", o.config, "OpenColorIO config; else $OCIO, else the program's own", "FILE");
   add_working_primaries(verb, o.working_primaries);
   add("--colorspace", o.colourspace,
-      "Of the input; else what the file says (identifier, chromaticities, profile, tags), else the config's rules", "NAME");
+      "Of the input; else what the file says (identifier, chromaticities, profile, tags), else the config's "
+      "rules",
+      "NAME");
   add("--layer", o.layer, "Which layer or part holds the colour", "NAME");
   const auto limit = [&](const char* name, std::int64_t& value, const char* text) {
     add_limit(verb, name, value, text);
@@ -58,7 +63,8 @@ void add_output_options(CLI::App& verb, ImageOptions& o) {
 
 void add_working_primaries(CLI::App& verb, std::string& value) {
   verb.add_option("--working-primaries", value,
-                  "Of the config's scene_linear, where its roles do not say: rec709, rec2020, p3, ap1, ap0, or a file of x y "
+                  "Of the config's scene_linear, where its roles do not say: rec709, rec2020, p3, ap1, ap0, "
+                  "or a file of x y "
                   "of red, green, blue, white")
       ->type_name("NAME|FILE")
       ->group("Input");
@@ -68,8 +74,9 @@ std::optional<Matrix3<double>> working_primaries(const std::string& text) {
   if (text.empty()) return std::nullopt;
   if (const auto known = gamut_xyz_matrix(text)) return known;
   const auto refuse = [&] {
-    fail_value("--working-primaries", text,
-               "rec709, rec2020, p3, ap1, ap0, or a file of eight numbers: x y of red, green, blue and white");
+    fail_value(
+        "--working-primaries", text,
+        "rec709, rec2020, p3, ap1, ap0, or a file of eight numbers: x y of red, green, blue and white");
   };
   std::error_code error;
   if (!std::filesystem::exists(text, error)) refuse();

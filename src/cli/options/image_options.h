@@ -32,8 +32,8 @@ ColourConfig config_in_force(const ImageOptions& options);
 /// That of a file.
 ColourConfig config_at(const std::string& file, const ImageOptions& options);
 
-/// CIE XYZ (D65) from RGB of --working-primaries: a known gamut, or a file of eight numbers, x y of red, green, blue and
-/// white; nullopt where it is not given.
+/// CIE XYZ (D65) from RGB of --working-primaries: a known gamut, or a file of eight numbers, x y of red,
+/// green, blue and white; nullopt where it is not given.
 std::optional<Matrix3<double>> working_primaries(const std::string& text);
 /// That option.
 void add_working_primaries(CLI::App& verb, std::string& value);

@@ -64,7 +64,9 @@ void add_operator_options(CLI::App& verb, OperatorOptions& o, StagesShown shown)
   const auto add = [&](const char* name, std::string& value, const std::string& text, const char* kind) {
     verb.add_option(name, value, text)->type_name(kind)->group(group);
   };
-  add("--adaptation", o.adaptation, "Luminance the eye is adapted to, or its name (moon, street, ...: explain --adaptations), or metered: auto "
+  add("--adaptation", o.adaptation,
+      "Luminance the eye is adapted to, or its name (moon, street, ...: explain --adaptations), or metered: "
+      "auto "
       "(log-average), auto:median, auto:p90, auto:X,Y,W,H",
       "CDM2|NAME|auto");
   add("--white-luminance", o.white_luminance,
@@ -80,21 +82,26 @@ void add_operator_options(CLI::App& verb, OperatorOptions& o, StagesShown shown)
       "NAME|S/P|FILE");
   if (shown == StagesShown::all)
     add("--adapt-white", o.adapt_white,
-        "White that the eye is used to: lamp (that of --illuminant), x,y or X,Y,Z (default: none, D65)", "lamp|XY|XYZ");
+        "White that the eye is used to: lamp (that of --illuminant), x,y or X,Y,Z (default: none, D65)",
+        "lamp|XY|XYZ");
   add("--rods", o.rods, "Rods from colour: linear (default) or quadratic", "NAME");
 }
 
 OperatorChoice understand(const OperatorOptions& o) {
   OperatorChoice out;
-  if (const std::optional<AdaptationMethod> metering = parse_adaptation_method(o.adaptation)) out.metering = *metering;
-  else out.adaptation = adaptation_value(o.adaptation);
+  if (const std::optional<AdaptationMethod> metering = parse_adaptation_method(o.adaptation))
+    out.metering = *metering;
+  else
+    out.adaptation = adaptation_value(o.adaptation);
   if (!o.white_luminance.empty())
     out.white_luminance = luminance_value("--white-luminance", o.white_luminance);
   AppearanceParameters& p = out.parameters;
   p.model = choice("--model", o.model, known(model_names));
   if (!o.safko_scale.empty()) {
-    if (p.model != Model::safko2019) fail_value("--safko-scale", o.safko_scale, "for --model " + o.model + ": safko2019 alone has it");
-    p.safko_scale = number_in("--safko-scale", o.safko_scale, 1e-9, 1e9, "a number of kernel units per cd/m2, 1e-9 to 1e9");
+    if (p.model != Model::safko2019)
+      fail_value("--safko-scale", o.safko_scale, "for --model " + o.model + ": safko2019 alone has it");
+    p.safko_scale = number_in("--safko-scale", o.safko_scale, 1e-9, 1e9,
+                              "a number of kernel units per cd/m2, 1e-9 to 1e9");
   }
   p.strength.all = number_in("--strength", o.strength, 0, 1, "a strength from 0 (off) to 1 (the model)");
   out.plan_effects = o.stages.effects == "auto";

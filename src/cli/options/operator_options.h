@@ -33,7 +33,8 @@ void add_operator_options(CLI::App& verb, OperatorOptions& options, StagesShown 
 /// illuminant.s file.
 OperatorChoice understand(const OperatorOptions& options);
 
-/// What was asked for and the model has not got: "--strength, --gamut"; empty where there is nothing of the kind.
+/// What was asked for and the model has not got: "--strength, --gamut"; empty where there is nothing of the
+/// kind.
 std::string without_effect(const OperatorOptions& options, const OperatorChoice& choice);
 
 }  // namespace scotopic

@@ -40,7 +40,8 @@ void add_band_options(CLI::App& verb, BandOptions& o) {
       "L,M,S,R");
 }
 
-// Of light of one wavelength it runs from 6e-4 (700 nm) to 59 (400 nm); of anything that has a luminance it lies within.
+// Of light of one wavelength it runs from 6e-4 (700 nm) to 59 (400 nm); of anything that has a luminance it
+// lies within.
 constexpr double least_sp_ratio = 1e-3, greatest_sp_ratio = 1e3;
 
 IlluminantChoice understand_illuminant(const std::string& text) {

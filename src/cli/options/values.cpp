@@ -35,11 +35,13 @@ double luminance_value(const char* option, const std::string& text) {
 
 double adaptation_value(const std::string& text) {
   if (const std::optional<double> named = named_adaptation(text)) return *named;
-  const bool word = !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) && text != "nan" && text != "inf";
+  const bool word =
+      !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) && text != "nan" && text != "inf";
   if (!word) return luminance_value("--adaptation", text);
   std::vector<std::string> names = {"auto"};
   for (const LadderStep& step : ladder) names.emplace_back(step.name);
-  fail_value("--adaptation", text, "a luminance in cd/m2, or a name (explain --adaptations)" + did_you_mean(text, names));
+  fail_value("--adaptation", text,
+             "a luminance in cd/m2, or a name (explain --adaptations)" + did_you_mean(text, names));
 }
 
 }  // namespace scotopic

@@ -9,9 +9,11 @@
 
 namespace scotopic {
 
-/// Nanoseconds per pixel that each effect of the plan adds on this machine, one thread, measured on the scene's
-/// samples; in the plan's order. 0 where nothing would run, or where there are too few samples to time.
-std::vector<double> measure_costs(const AppearanceParameters& asked, const ScenePlan& plan, const SceneStatistics& statistics);
+/// Nanoseconds per pixel that each effect of the plan adds on this machine, one thread, measured on the
+/// scene's samples; in the plan's order. 0 where nothing would run, or where there are too few samples to
+/// time.
+std::vector<double> measure_costs(const AppearanceParameters& asked, const ScenePlan& plan,
+                                  const SceneStatistics& statistics);
 
 /// One bar of the luminance histogram: from cd/m2 up to twice that.
 struct LuminanceBar {
@@ -19,8 +21,8 @@ struct LuminanceBar {
   double share = 0;
 };
 
-/// Octaves of luminance between the darkest and the brightest that hold light, in cd/m2. `dark`: share of pixels at
-/// or below 0.
+/// Octaves of luminance between the darkest and the brightest that hold light, in cd/m2. `dark`: share of
+/// pixels at or below 0.
 std::vector<LuminanceBar> luminance_bars(const SceneStatistics& statistics, double white_luminance);
 double dark_share(const SceneStatistics& statistics);
 

@@ -62,11 +62,11 @@ nlohmann::ordered_json adapting_json(const AdaptationState& state, const Adaptat
 nlohmann::ordered_json plan_json(const ScenePlan& plan) {
   nlohmann::ordered_json out;
   for (const EffectDecision& e : plan.effects)
-    out[std::string(e.effect)] = {
-        {"asked", e.asked},         {"needed", e.needed},
-        {"runs", e.runs()},         {"number", e.number}, {"threshold", e.threshold},
-        {"unit", e.unit},           {"share", e.share},   {"largestDifference", e.difference},
-        {"reason", e.reason}};
+    out[std::string(e.effect)] = {{"asked", e.asked},         {"needed", e.needed},
+                                  {"runs", e.runs()},         {"number", e.number},
+                                  {"threshold", e.threshold}, {"unit", e.unit},
+                                  {"share", e.share},         {"largestDifference", e.difference},
+                                  {"reason", e.reason}};
   return out;
 }
 

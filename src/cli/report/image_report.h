@@ -11,7 +11,8 @@
 namespace scotopic {
 
 nlohmann::ordered_json image_json(const ImageReport& report);
-/// Where an eye stands that is still adapting: log10 of thresholds over the absolute one, cd/m2, shares of pigment.
+/// Where an eye stands that is still adapting: log10 of thresholds over the absolute one, cd/m2, shares of
+/// pigment.
 nlohmann::ordered_json adapting_json(const AdaptationState& state, const AdaptationThresholds& thresholds);
 nlohmann::ordered_json plan_json(const ScenePlan& plan);
 /// Null for an image that is not spectral.

@@ -37,10 +37,10 @@ std::string bytes_text(std::size_t bytes) {
 }  // namespace
 
 std::string time_text(const std::vector<WayRow>& rows, const TimeConditions& c) {
-  std::string out =
-      fmt::format("{}; OpenColorIO {}; load {:.2f}\n{}, {} pixels, median of {} rounds\n"
-                  "errors over {}, against double, which is within {:g} of exact arithmetic\n\n",
-                  c.machine, c.ocio, c.load, c.picture, c.pixels, c.rounds, c.colours, reference_error);
+  std::string out = fmt::format(
+      "{}; OpenColorIO {}; load {:.2f}\n{}, {} pixels, median of {} rounds\n"
+      "errors over {}, against double, which is within {:g} of exact arithmetic\n\n",
+      c.machine, c.ocio, c.load, c.picture, c.pixels, c.rounds, c.colours, reference_error);
   out += fmt::format("{:<32}{:>10}{:>8}{:>8}{:>10}{:>10}{:>10}{:>10}{:>9}{:>9}\n", "", "ns/pixel", "spread",
                      "memcpy", "dE00 mean", "99 %", "max", "pixel", "tables", "bake s");
   std::string group;

@@ -21,7 +21,8 @@ TimeChoice history_of(const std::string& text) {
       if (!history.problem.empty()) throw Error(ExitCode::input, text, history.problem);
     }
   if (!history.problem.empty())
-    throw Error(ExitCode::usage, "", "--adaptation-history: '" + text + "' is no file, and: " + history.problem);
+    throw Error(ExitCode::usage, "",
+                "--adaptation-history: '" + text + "' is no file, and: " + history.problem);
   out.history = std::move(history.periods);
   return out;
 }
@@ -30,14 +31,14 @@ TimeChoice history_of(const std::string& text) {
 
 void add_scene_options(CLI::App& verb, SceneOptions& o) {
   add_operator_options(verb, o.appearance, StagesShown::all);
-  verb.add_option("--adaptation-history", o.history,
-                  "Light that the eye was in before the first frame: LUMINANCE:SECONDS,... (cd/m2 or a name), or a "
-                  "file of them; default: ever in the scene's own")
+  verb.add_option(
+          "--adaptation-history", o.history,
+          "Light that the eye was in before the first frame: LUMINANCE:SECONDS,... (cd/m2 or a name), or a "
+          "file of them; default: ever in the scene's own")
       ->type_name("LIST|FILE")
       ->group("Time");
   add_viewing_options(verb, o.viewing);
 }
-
 
 ImageSettings understand(const SceneOptions& o) {
   OperatorChoice choice = understand(o.appearance);

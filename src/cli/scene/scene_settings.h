@@ -22,7 +22,8 @@ struct SceneOptions {
 /// All that both verbs have but an image's own.
 void add_scene_options(CLI::App& verb, SceneOptions& options);
 
-/// With the colour config in force; add_stages() is still to be called. Faults are told in the order of the options' groups.
+/// With the colour config in force; add_stages() is still to be called. Faults are told in the order of the
+/// options' groups.
 ImageSettings understand(const SceneOptions& options);
 
 }  // namespace scotopic

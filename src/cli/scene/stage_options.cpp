@@ -62,7 +62,9 @@ void set_acuity(const std::string& text, StageValues& values) {
 
 void add_stage_options(CLI::App& verb, StageOptions& o, StagesShown shown) {
   const std::string of_images =
-      shown == StagesShown::all ? " (glare, detail and noise where pixels per degree are known, noise in sequences)" : "";
+      shown == StagesShown::all
+          ? " (glare, detail and noise where pixels per degree are known, noise in sequences)"
+          : "";
   verb.add_option("--effects", o.effects,
                   "auto (default: what the scene calls for), all" + of_images + ", none, or of " +
                       effect_names(o.table, shown == StagesShown::fused))

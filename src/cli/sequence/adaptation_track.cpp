@@ -17,7 +17,9 @@ constexpr double least = 1e-9, greatest = 1e9;  // cd/m2, as --adaptation has th
 
 void add_key(std::vector<AdaptationKey>& keys, double frame, double luminance, const std::string& file,
              const std::string& place) {
-  const auto refuse = [&](const std::string& what) { throw Error(ExitCode::input, file, place + ": " + what); };
+  const auto refuse = [&](const std::string& what) {
+    throw Error(ExitCode::input, file, place + ": " + what);
+  };
   if (!(std::abs(frame) <= 1e9) || frame != std::floor(frame)) refuse("a frame is a whole number");
   if (!(luminance >= least && luminance <= greatest)) refuse("a luminance is from 1e-9 to 1e9 cd/m2");
   if (!keys.empty() && keys.back().frame >= static_cast<int>(frame)) refuse("frames have to ascend");
@@ -69,7 +71,8 @@ std::vector<AdaptationKey> parse_adaptation_keys(const std::string& text, const 
   const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
   std::vector<AdaptationKey> keys =
       json.is_array() || json.is_object() ? keys_of_json(json, file) : keys_of_csv(text, file);
-  if (keys.empty()) throw Error(ExitCode::input, file, "holds no adaptation: lines \"frame,luminance\", or JSON");
+  if (keys.empty())
+    throw Error(ExitCode::input, file, "holds no adaptation: lines \"frame,luminance\", or JSON");
   return keys;
 }
 
@@ -84,7 +87,8 @@ AdaptationTrack::AdaptationTrack(std::vector<AdaptationKey> keys, std::span<cons
 }
 
 double AdaptationTrack::luminance(double frame) const {
-  const auto after = std::find_if(keys_.begin(), keys_.end(), [&](const AdaptationKey& k) { return k.frame >= frame; });
+  const auto after =
+      std::find_if(keys_.begin(), keys_.end(), [&](const AdaptationKey& k) { return k.frame >= frame; });
   if (after == keys_.end()) return keys_.back().luminance;
   if (after == keys_.begin() || after->frame == frame) return after->luminance;
   const AdaptationKey& before = *(after - 1);

@@ -28,7 +28,8 @@ std::vector<AdaptationKey> parse_adaptation_keys(const std::string& text, const 
 /// reached from the first key by a step a frame: the same bits for any part of the shot.
 class AdaptationTrack {
  public:
-  /// At least one key, for frames up to `last`. `history`: light before the first key; empty: ever in its own.
+  /// At least one key, for frames up to `last`. `history`: light before the first key; empty: ever in its
+  /// own.
   AdaptationTrack(std::vector<AdaptationKey> keys, std::span<const AdaptationPeriod> history,
                   double frame_rate, int last, std::string source);
 

@@ -15,7 +15,8 @@ struct FramePaths {
   std::string output;
 };
 
-/// Options understood and the colour config read, for any number of images. A usage error is thrown when it is made.
+/// Options understood and the colour config read, for any number of images. A usage error is thrown when it
+/// is made.
 class FrameJob {
  public:
   FrameJob() = default;
@@ -23,9 +24,11 @@ class FrameJob {
   FrameJob(const FrameJob&) = delete;
   FrameJob& operator=(const FrameJob&) = delete;
 
-  /// Writes one image, whole or not at all; returns what --json says of it. Several threads may do so at once.
+  /// Writes one image, whole or not at all; returns what --json says of it. Several threads may do so at
+  /// once.
   virtual nlohmann::ordered_json run(const ImageJob& job, const Console& console) = 0;
-  /// What an output depends on besides the options as typed and its input: the colour config, a shot's adaptation.
+  /// What an output depends on besides the options as typed and its input: the colour config, a shot's
+  /// adaptation.
   virtual std::string settings() const = 0;
   virtual const Limits& limits() const = 0;
 };

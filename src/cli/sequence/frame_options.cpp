@@ -29,8 +29,9 @@ void check_overlap(const std::vector<Frame>& frames) {
   for (const Frame& f : frames) {
     const auto other = number_of.find(std::filesystem::path(f.paths.output).lexically_normal().string());
     if (other != number_of.end() && other->second != *f.number)
-      throw Error(ExitCode::usage, f.paths.output,
-                  fmt::format("would be frame {}'s output and is frame {}'s input", *f.number, other->second));
+      throw Error(
+          ExitCode::usage, f.paths.output,
+          fmt::format("would be frame {}'s output and is frame {}'s input", *f.number, other->second));
   }
 }
 
@@ -46,9 +47,10 @@ void check_inputs(const std::vector<Frame>& frames) {
     }
   }
   if (!first) return;
-  throw Error(first->code(), first->file(),
-              fmt::format("{}: {} {}", first->what(), missing.size() > 1 ? "missing are frames" : "missing is frame",
-                          frames_text(missing)));
+  throw Error(
+      first->code(), first->file(),
+      fmt::format("{}: {} {}", first->what(), missing.size() > 1 ? "missing are frames" : "missing is frame",
+                  frames_text(missing)));
 }
 
 void check_skipping(const std::vector<Frame>& frames) {
@@ -61,12 +63,15 @@ void check_skipping(const std::vector<Frame>& frames) {
 }  // namespace
 
 void add_reading_frame_options(CLI::App& verb, FrameOptions& o) {
-  verb.add_option("--frames", o.frames, "1-240, 1-240x2, 1-10,20; names then hold the number's place: ####, @@@@ or %04d")
+  verb.add_option("--frames", o.frames,
+                  "1-240, 1-240x2, 1-10,20; names then hold the number's place: ####, @@@@ or %04d")
       ->type_name("LIST")
       ->group(group);
-  verb.add_flag("--continue-on-error", o.continue_on_error, "Go on after a frame that fails; told of at the end")
+  verb.add_flag("--continue-on-error", o.continue_on_error,
+                "Go on after a frame that fails; told of at the end")
       ->group(group);
-  verb.add_option("--frames-at-once", o.at_once, "Frames under way: one is read while another is computed or written")
+  verb.add_option("--frames-at-once", o.at_once,
+                  "Frames under way: one is read while another is computed or written")
       ->check(whole_number(1, 8))
       ->type_name("N")
       ->group(group)

@@ -29,13 +29,14 @@ struct Frame {
   FramePaths paths;
 };
 
-/// Without --frames the one image, by its name as it is; with it every frame, by patterns. Error(usage) for a name without
-/// a place for the number, for outputs that would overwrite another frame's input, and for --skip-existing on a file that
-/// is its own input. `output` may be empty: then nothing is written.
-std::vector<Frame> frames_of(const FrameOptions& options, const std::string& input, const std::string& output);
+/// Without --frames the one image, by its name as it is; with it every frame, by patterns. Error(usage) for a
+/// name without a place for the number, for outputs that would overwrite another frame's input, and for
+/// --skip-existing on a file that is its own input. `output` may be empty: then nothing is written.
+std::vector<Frame> frames_of(const FrameOptions& options, const std::string& input,
+                             const std::string& output);
 
-/// Before anything is computed: Error(input) that names the frames whose input is missing (unless failures are gone
-/// on after), and Error(output) where the folder of the first output cannot be written.
+/// Before anything is computed: Error(input) that names the frames whose input is missing (unless failures
+/// are gone on after), and Error(output) where the folder of the first output cannot be written.
 void check_places(const std::vector<Frame>& frames, const FrameOptions& options);
 
 }  // namespace scotopic

@@ -18,7 +18,8 @@ std::string rate_text(double rate, const std::string& unit) {
 
 std::string duration_text(double seconds) {
   const auto s = static_cast<std::int64_t>(std::min(std::ceil(seconds), 1e9));
-  return s < 3600 ? fmt::format("{}:{:02}", s / 60, s % 60) : fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
+  return s < 3600 ? fmt::format("{}:{:02}", s / 60, s % 60)
+                  : fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
 }
 
 ProgressLine::ProgressLine(const Console& console, std::string unit, std::int64_t total, Log log)
@@ -39,7 +40,8 @@ std::string ProgressLine::text() const {
   const double worked = static_cast<double>(done_ - free_), time = seconds();
   if (worked <= 0 || time <= 0) return text;
   text += ", " + rate_text(worked / time, unit_);
-  if (done_ < total_) text += ", " + duration_text(static_cast<double>(total_ - done_) * time / worked) + " to go";
+  if (done_ < total_)
+    text += ", " + duration_text(static_cast<double>(total_ - done_) * time / worked) + " to go";
   return text;
 }
 
@@ -48,8 +50,9 @@ std::string ProgressLine::bar() const {
   const int columns = terminal_columns() - 1;
   const int room = std::clamp(columns - static_cast<int>(after.size()) - 12, 0, 40);
   const auto full = static_cast<int>(total_ > 0 ? room * done_ / total_ : 0);
-  const std::string drawn = room < 4 ? "" : "[" + std::string(static_cast<std::size_t>(full), '#') +
-                                                std::string(static_cast<std::size_t>(room - full), '.') + "]";
+  const std::string drawn = room < 4 ? ""
+                                     : "[" + std::string(static_cast<std::size_t>(full), '#') +
+                                           std::string(static_cast<std::size_t>(room - full), '.') + "]";
   return ("scotopic: " + drawn + after).substr(0, static_cast<std::size_t>(std::max(0, columns)));
 }
 

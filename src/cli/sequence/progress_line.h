@@ -9,8 +9,8 @@
 
 namespace scotopic {
 
-/// On a terminal a bar that is drawn in place, from half a second on; in a log, with `lines`, a line every ten seconds.
-/// Silent with --quiet and --json. One thread at a time.
+/// On a terminal a bar that is drawn in place, from half a second on; in a log, with `lines`, a line every
+/// ten seconds. Silent with --quiet and --json. One thread at a time.
 class ProgressLine {
  public:
   enum class Log { lines, silent };
@@ -21,7 +21,8 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// `done` of the total are, `free` of them cost nothing (they were there already) and do not count for the rate.
+  /// `done` of the total are, `free` of them cost nothing (they were there already) and do not count for the
+  /// rate.
   void at(std::int64_t done, std::int64_t free = 0);
 
   /// "37 of 240 frames, 3.1 frames/s, 1:05 to go"

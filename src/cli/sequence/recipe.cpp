@@ -18,12 +18,25 @@
 namespace scotopic {
 namespace {
 
-// Of verbs that write images. What they stand for otherwise is in the recipe another way, or changes no pixel.
-constexpr std::array<std::string_view, 17> without_effect = {
-    "help",         "verbose",         "quiet",         "json",          "threads",
-    "frames",       "frames-at-once",  "skip-existing", "continue-on-error", "adaptation-from",
-    "output",       "input",           "max-side",      "max-pixels",    "max-channels",
-    "max-band-bytes", "version"};
+// Of verbs that write images. What they stand for otherwise is in the recipe another way, or changes no
+// pixel.
+constexpr std::array<std::string_view, 17> without_effect = {"help",
+                                                             "verbose",
+                                                             "quiet",
+                                                             "json",
+                                                             "threads",
+                                                             "frames",
+                                                             "frames-at-once",
+                                                             "skip-existing",
+                                                             "continue-on-error",
+                                                             "adaptation-from",
+                                                             "output",
+                                                             "input",
+                                                             "max-side",
+                                                             "max-pixels",
+                                                             "max-channels",
+                                                             "max-band-bytes",
+                                                             "version"};
 
 std::string name_of(const CLI::Option& option) {
   if (!option.get_lnames().empty()) return option.get_lnames().front();
@@ -56,7 +69,8 @@ std::string recipe_in(const PixelSource& source, std::size_t picture) {
     const auto* text = std::get_if<std::string>(&a.value);
     if (!text) continue;
     if (a.name == provenance_attribute) return *text;
-    if (const std::string found = a.name == "ImageDescription" ? last_value(*text) : ""; !found.empty()) return found;
+    if (const std::string found = a.name == "ImageDescription" ? last_value(*text) : ""; !found.empty())
+      return found;
   }
   return "";
 }
@@ -96,8 +110,10 @@ std::vector<std::string> input_files(const std::string& input) {
 
 std::string colour_identity(const ColourConfig& config) { return config.ocio()->getCacheID(); }
 
-std::string common_recipe(const std::string& verb, const FrameJob& job, const std::vector<std::string>& typed) {
-  std::string text = line("scotopic", SCOTOPIC_VERSION) + line("verb", verb) + line("settings", job.settings());
+std::string common_recipe(const std::string& verb, const FrameJob& job,
+                          const std::vector<std::string>& typed) {
+  std::string text =
+      line("scotopic", SCOTOPIC_VERSION) + line("verb", verb) + line("settings", job.settings());
   for (const std::string& option : typed) {
     text += line("option", option);
     const std::string value = option.substr(option.find('=') + 1);
@@ -108,7 +124,8 @@ std::string common_recipe(const std::string& verb, const FrameJob& job, const st
 
 std::string recipe_of(const std::string& common, const FramePaths& paths) {
   std::string text = common + line("output", file_name(paths.output)) + line("input", file_name(paths.input));
-  for (const std::string& file : input_files(paths.input)) text += line(file_name(file), sha256_of_file(file));
+  for (const std::string& file : input_files(paths.input))
+    text += line(file_name(file), sha256_of_file(file));
   return sha256(text);
 }
 

@@ -11,26 +11,29 @@
 
 namespace scotopic {
 
-/// Options on the command line, "name=value" each, without those that cannot change what is written (threads, limits,
-/// what is said, which frames). An option that nobody thought of here counts: too much is computed again rather than too
-/// little.
+/// Options on the command line, "name=value" each, without those that cannot change what is written (threads,
+/// limits, what is said, which frames). An option that nobody thought of here counts: too much is computed
+/// again rather than too little.
 std::vector<std::string> typed_options(const CLI::App& verb);
 
 /// OpenColorIO's hash of a config, of the environment it looks at, and of its LUTs (these by inode and time).
 std::string colour_identity(const ColourConfig& config);
 
-/// What the recipes of all images of one command have in common: version, verb, options (one that names a file with the
-/// file's contents), and the job's own settings.
-std::string common_recipe(const std::string& verb, const FrameJob& job, const std::vector<std::string>& typed);
+/// What the recipes of all images of one command have in common: version, verb, options (one that names a
+/// file with the file's contents), and the job's own settings.
+std::string common_recipe(const std::string& verb, const FrameJob& job,
+                          const std::vector<std::string>& typed);
 
-/// SHA-256 of that, of every byte of the input, and of both files' names without folders (rules of a colour config may go
-/// by them). Error(input) for an input that is missing.
+/// SHA-256 of that, of every byte of the input, and of both files' names without folders (rules of a colour
+/// config may go by them). Error(input) for an input that is missing.
 std::string recipe_of(const std::string& common, const FramePaths& paths);
 
-/// Whether the file is there, has this recipe, and is whole: its header, and the last rows of its pictures are read.
+/// Whether the file is there, has this recipe, and is whole: its header, and the last rows of its pictures
+/// are read.
 bool holds_recipe(const std::string& file, const std::string& recipe, const Limits& limits);
 
-/// Files that an input stands for: itself, or those of a pattern of wavelengths. Error(input) for one that is missing.
+/// Files that an input stands for: itself, or those of a pattern of wavelengths. Error(input) for one that is
+/// missing.
 std::vector<std::string> input_files(const std::string& input);
 
 }  // namespace scotopic

@@ -21,7 +21,8 @@ struct Outcome {
 /// Frames as jobs, and whether one is done already.
 class FrameList {
  public:
-  FrameList(const std::string& verb, FrameJob& work, const FrameOptions& options, bool stamped, const CommonOptions& common)
+  FrameList(const std::string& verb, FrameJob& work, const FrameOptions& options, bool stamped,
+            const CommonOptions& common)
       : work_(work),
         skip_(options.skip_existing),
         stamped_(stamped || skip_),
@@ -36,7 +37,9 @@ class FrameList {
     return out;
   }
   /// The output is what this job would make.
-  bool is_made(const ImageJob& job) const { return skip_ && holds_recipe(job.output, job.provenance, work_.limits()); }
+  bool is_made(const ImageJob& job) const {
+    return skip_ && holds_recipe(job.output, job.provenance, work_.limits());
+  }
 
  private:
   FrameJob& work_;
@@ -45,7 +48,9 @@ class FrameList {
   std::string common_;
 };
 
-nlohmann::ordered_json skipped_result(const ImageJob& job) { return {{"input", job.input}, {"output", job.output}}; }
+nlohmann::ordered_json skipped_result(const ImageJob& job) {
+  return {{"input", job.input}, {"output", job.output}};
+}
 
 int run_one(const FrameList& list, FrameJob& work, const Frame& frame, const Console& console) {
   std::optional<ProgressLine> line;
@@ -80,8 +85,11 @@ class SequenceReport {
       failed_.push_back(*frame.number);
       if (!first_failure_) first_failure_ = outcome.failure;
       (void)report(*outcome.failure, console_.json());
-      entry.update({{"input", frame.paths.input}, {"output", frame.paths.output}, {"status", "failed"},
-                    {"code", static_cast<int>(outcome.failure->code())}, {"message", outcome.failure->what()}});
+      entry.update({{"input", frame.paths.input},
+                    {"output", frame.paths.output},
+                    {"status", "failed"},
+                    {"code", static_cast<int>(outcome.failure->code())},
+                    {"message", outcome.failure->what()}});
     } else {
       ++(outcome.skipped ? skipped_ : written_);
       if (outcome.result.value("nonFinite", 0) > 0) non_finite_.push_back(*frame.number);
@@ -94,7 +102,8 @@ class SequenceReport {
 
   int finish() {
     if (console_.json())
-      console_.result({{"frames", results_}, {"written", written_}, {"skipped", skipped_}, {"failed", failed_.size()}});
+      console_.result(
+          {{"frames", results_}, {"written", written_}, {"skipped", skipped_}, {"failed", failed_.size()}});
     console_.note(summary());
     return static_cast<int>(first_failure_ ? first_failure_->code() : ExitCode::done);
   }
@@ -103,7 +112,8 @@ class SequenceReport {
   void tell_progress(const Frame& frame, const Outcome& outcome) {
     line_.at(static_cast<std::int64_t>(results_.size()), static_cast<std::int64_t>(skipped_));
     if (on_terminal() || console_.json() || outcome.failure || !told()) return;
-    console_.note(fmt::format("{}: {} ({})", frame.paths.output, outcome.skipped ? "is there already" : "written", line_.text()));
+    console_.note(fmt::format("{}: {} ({})", frame.paths.output,
+                              outcome.skipped ? "is there already" : "written", line_.text()));
   }
 
   /// Not each of many frames: some ten in all.
@@ -117,9 +127,11 @@ class SequenceReport {
     if (skipped_ > 0) text += fmt::format(", {} there already", skipped_);
     if (!failed_.empty()) text += fmt::format(", {} failed ({})", failed_.size(), frames_text(failed_));
     if (!non_finite_.empty())
-      text += fmt::format(", {} with pixels that are not finite ({})", non_finite_.size(), frames_text(non_finite_));
+      text += fmt::format(", {} with pixels that are not finite ({})", non_finite_.size(),
+                          frames_text(non_finite_));
     const std::size_t left = frames_.size() - results_.size();
-    if (left > 0) text += fmt::format(", {} not begun (from frame {} on)", left, *frames_[results_.size()].number);
+    if (left > 0)
+      text += fmt::format(", {} not begun (from frame {} on)", left, *frames_[results_.size()].number);
     return text;
   }
 
@@ -133,7 +145,8 @@ class SequenceReport {
   std::optional<Error> first_failure_;
 };
 
-int run_sequence(const FrameList& list, FrameJob& work, const std::vector<Frame>& frames, const FrameOptions& options, const Console& console) {
+int run_sequence(const FrameList& list, FrameJob& work, const std::vector<Frame>& frames,
+                 const FrameOptions& options, const Console& console) {
   std::vector<Outcome> outcomes(frames.size());
   SequenceReport report(frames, console);
   const auto make = [&](std::size_t i) {
@@ -174,11 +187,12 @@ void SaidOnce::say(const Console& console, const FramePaths& paths, const std::v
   }
 }
 
-int run_frames(const std::string& verb, FrameJob& job, const std::vector<Frame>& frames, const FrameOptions& options,
-               const Console& console) {
+int run_frames(const std::string& verb, FrameJob& job, const std::vector<Frame>& frames,
+               const FrameOptions& options, const Console& console) {
   const bool sequence = frames.front().number.has_value();
   const FrameList list(verb, job, options, sequence, console.options());
-  return sequence ? run_sequence(list, job, frames, options, console) : run_one(list, job, frames.front(), console);
+  return sequence ? run_sequence(list, job, frames, options, console)
+                  : run_one(list, job, frames.front(), console);
 }
 
 }  // namespace scotopic

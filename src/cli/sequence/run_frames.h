@@ -1,4 +1,5 @@
-// A job on the images of a command: one, or a sequence in one process, read, computed and written in turns that overlap.
+// A job on the images of a command: one, or a sequence in one process, read, computed and written in turns
+// that overlap.
 #pragma once
 
 #include <string>
@@ -10,13 +11,15 @@
 
 namespace scotopic {
 
-/// Runs it, tells how far it is, and what it did; returns the exit code: of a sequence that of the first frame, in its
-/// order, that failed. Notes that say the same of every frame are said once. A single image's failure is thrown.
-int run_frames(const std::string& verb, FrameJob& job, const std::vector<Frame>& frames, const FrameOptions& options,
-               const Console& console);
+/// Runs it, tells how far it is, and what it did; returns the exit code: of a sequence that of the first
+/// frame, in its order, that failed. Notes that say the same of every frame are said once. A single image's
+/// failure is thrown.
+int run_frames(const std::string& verb, FrameJob& job, const std::vector<Frame>& frames,
+               const FrameOptions& options, const Console& console);
 
-/// Prints lines about frames, each once however many frames it is true of: a line that begins with a frame's own input
-/// counts as the same for all, and so do lines whose numbers alone differ, unless all is asked for (-v).
+/// Prints lines about frames, each once however many frames it is true of: a line that begins with a frame's
+/// own input counts as the same for all, and so do lines whose numbers alone differ, unless all is asked for
+/// (-v).
 class SaidOnce {
  public:
   void say(const Console& console, const FramePaths& paths, const std::vector<std::string>& lines);

@@ -38,14 +38,16 @@ FrameMeter meter_frame(const ImageSettings& settings, const Frame& frame) {
 }
 
 /// All frames' units, where files tell them, are used as they are; that they differ is said.
-void compare_units(const std::vector<FrameMeter>& meters, const std::vector<Frame>& frames, const Console& console) {
+void compare_units(const std::vector<FrameMeter>& meters, const std::vector<Frame>& frames,
+                   const Console& console) {
   std::optional<double> first;
   for (std::size_t i = 0; i < meters.size(); ++i) {
     if (!meters[i].file_unit) continue;
     if (!first) first = meters[i].file_unit;
     if (*meters[i].file_unit == *first) continue;
-    console.note(fmt::format("{}: says that value 1 is {:.4g} cd/m2, earlier frames {:.4g}: each is taken at its word",
-                             frames[i].paths.input, *meters[i].file_unit, *first));
+    console.note(
+        fmt::format("{}: says that value 1 is {:.4g} cd/m2, earlier frames {:.4g}: each is taken at its word",
+                    frames[i].paths.input, *meters[i].file_unit, *first));
     return;
   }
 }
@@ -53,7 +55,8 @@ void compare_units(const std::vector<FrameMeter>& meters, const std::vector<Fram
 std::vector<FrameMeter> meter_frames(const ImageSettings& settings, const std::vector<Frame>& frames,
                                      const FrameOptions& options, const Console& console) {
   std::vector<FrameMeter> meters(frames.size());
-  ProgressLine line(console, "frames metered", static_cast<std::int64_t>(frames.size()), ProgressLine::Log::lines);
+  ProgressLine line(console, "frames metered", static_cast<std::int64_t>(frames.size()),
+                    ProgressLine::Log::lines);
   in_order(
       frames.size(), options.at_once, [&](std::size_t i) { meters[i] = meter_frame(settings, frames[i]); },
       [&](std::size_t i) {
@@ -70,7 +73,8 @@ std::string contents_of(const std::string& file) {
   std::ifstream stream(file);
   if (!stream)
     throw Error(ExitCode::input, file,
-                "cannot be read: --adaptation-from takes frames, track, a file that explain --json wrote (track:FILE for "
+                "cannot be read: --adaptation-from takes frames, track, a file that explain --json wrote "
+                "(track:FILE for "
                 "each frame's own), or one of keys");
   return {std::istreambuf_iterator<char>(stream), {}};
 }
@@ -79,8 +83,9 @@ std::string contents_of(const std::string& file) {
 std::optional<double> shot_of(const std::string& text, const std::string& file) {
   const auto json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object() || !json.contains("shot")) return std::nullopt;
-  const auto number =
-      json["shot"].is_object() && json["shot"].contains("adaptation") ? json["shot"]["adaptation"] : nlohmann::json();
+  const auto number = json["shot"].is_object() && json["shot"].contains("adaptation")
+                          ? json["shot"]["adaptation"]
+                          : nlohmann::json();
   const double value = number.is_number() ? number.get<double>() : 0;
   if (!(value >= 1e-9 && value <= 1e9))
     throw Error(ExitCode::input, file, "has no adaptation of a shot, as explain --frames --json writes it");
@@ -94,11 +99,14 @@ std::vector<AdaptationKey> metered_keys(const ImageSettings& settings, const std
   std::optional<Error> failure;
   const std::vector<FrameMeter> meters = meter_frames(settings, frames, options, console);
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (meters[i].failure) failure = failure ? failure : meters[i].failure;
-    else keys.push_back({*frames[i].number, meters[i].adaptation});
+    if (meters[i].failure)
+      failure = failure ? failure : meters[i].failure;
+    else
+      keys.push_back({*frames[i].number, meters[i].adaptation});
   }
   if (keys.empty()) throw *failure;
-  std::sort(keys.begin(), keys.end(), [](const AdaptationKey& a, const AdaptationKey& b) { return a.frame < b.frame; });
+  std::sort(keys.begin(), keys.end(),
+            [](const AdaptationKey& a, const AdaptationKey& b) { return a.frame < b.frame; });
   return keys;
 }
 
@@ -112,28 +120,34 @@ double frame_rate_of(const ImageSettings& settings, const Frame& first, const Co
   return found.rate;
 }
 
-AdaptationTrack track_from(std::vector<AdaptationKey> keys, const ImageSettings& settings, const std::vector<Frame>& frames,
-                           const std::string& source, const Console& console) {
+AdaptationTrack track_from(std::vector<AdaptationKey> keys, const ImageSettings& settings,
+                           const std::vector<Frame>& frames, const std::string& source,
+                           const Console& console) {
   int last = 0;
   for (const Frame& frame : frames) last = std::max(last, frame.number.value_or(0));
-  return {std::move(keys), settings.time.history, frame_rate_of(settings, frames.front(), console), last, source};
+  return {std::move(keys), settings.time.history, frame_rate_of(settings, frames.front(), console), last,
+          source};
 }
 
 }  // namespace
 
 void add_shot_options(CLI::App& verb, std::string& adaptation_from) {
-  verb.add_option("--adaptation-from", adaptation_from,
-                  "One adaptation for all frames: frames (the median of theirs), or a file that explain --json wrote of "
-                  "them; or an eye that follows: track (each frame's own), track:FILE (explain's), or a file of keys "
-                  "(frame,cd/m2 lines, or JSON)")
+  verb.add_option(
+          "--adaptation-from", adaptation_from,
+          "One adaptation for all frames: frames (the median of theirs), or a file that explain --json wrote "
+          "of "
+          "them; or an eye that follows: track (each frame's own), track:FILE (explain's), or a file of keys "
+          "(frame,cd/m2 lines, or JSON)")
       ->type_name("WHAT")
       ->group("What is seen");
 }
 
-void check_shot(const std::string& adaptation_from, const OperatorChoice& choice, const std::vector<Frame>& frames) {
+void check_shot(const std::string& adaptation_from, const OperatorChoice& choice,
+                const std::vector<Frame>& frames) {
   if (adaptation_from.empty()) return;
   if (choice.adaptation)
-    throw Error(ExitCode::usage, "", "--adaptation-from meters the frames, --adaptation gives a number: choose one");
+    throw Error(ExitCode::usage, "",
+                "--adaptation-from meters the frames, --adaptation gives a number: choose one");
   if ((adaptation_from == "frames" || adaptation_from == "track") && !frames.front().number)
     throw Error(ExitCode::usage, "", "--adaptation-from " + adaptation_from + " needs --frames");
 }
@@ -146,7 +160,10 @@ ShotLight shot_light(std::vector<double> a) {
 }
 
 nlohmann::ordered_json shot_json(const ShotLight& shot) {
-  return {{"adaptation", shot.median}, {"least", shot.least}, {"greatest", shot.greatest}, {"frames", shot.frames}};
+  return {{"adaptation", shot.median},
+          {"least", shot.least},
+          {"greatest", shot.greatest},
+          {"frames", shot.frames}};
 }
 
 std::optional<AdaptationTrack> settle_shot(const std::string& from, ImageSettings& settings,
@@ -156,14 +173,18 @@ std::optional<AdaptationTrack> settle_shot(const std::string& from, ImageSetting
   check_shot(from, choice, frames);
   if (from.empty()) {
     if (frames.size() > 1 && !choice.adaptation)
-      console.note("each frame is adapted to its own light, which can flicker: --adaptation-from frames holds one for all");
+      console.note(
+          "each frame is adapted to its own light, which can flicker: --adaptation-from frames holds one for "
+          "all");
     return std::nullopt;
   }
   if (from == "track")
-    return track_from(metered_keys(settings, frames, options, console), settings, frames, "track of the frames", console);
+    return track_from(metered_keys(settings, frames, options, console), settings, frames,
+                      "track of the frames", console);
   if (from == "frames") {
     std::vector<double> adaptations;
-    for (const AdaptationKey& key : metered_keys(settings, frames, options, console)) adaptations.push_back(key.luminance);
+    for (const AdaptationKey& key : metered_keys(settings, frames, options, console))
+      adaptations.push_back(key.luminance);
     const ShotLight shot = shot_light(adaptations);
     choice.adaptation = shot.median;
     choice.adaptation_source =

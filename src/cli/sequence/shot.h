@@ -16,7 +16,8 @@ namespace scotopic {
 void add_shot_options(CLI::App& verb, std::string& adaptation_from);
 
 /// Error(usage) for --adaptation-from beside a number in --adaptation, or "frames" without --frames.
-void check_shot(const std::string& adaptation_from, const OperatorChoice& choice, const std::vector<Frame>& frames);
+void check_shot(const std::string& adaptation_from, const OperatorChoice& choice,
+                const std::vector<Frame>& frames);
 
 /// The adaptation luminances of a shot's frames, cd/m2.
 struct ShotLight {
@@ -30,11 +31,13 @@ ShotLight shot_light(std::vector<double> adaptations);
 nlohmann::ordered_json shot_json(const ShotLight& shot);
 
 /// What --adaptation-from asks for. One adaptation for all frames is set in `settings`: the median of all
-/// frames' own, each metered as --adaptation says ("frames"), or the one that explain found (FILE, its --json). A track
-/// is returned: each frame's own ("track"), that which explain found ("track:FILE"), or keys (FILE, parse_adaptation_keys).
-/// For `frames` and `track` the unit has to be known: Error(usage) names a frame that does not tell it. Without
+/// frames' own, each metered as --adaptation says ("frames"), or the one that explain found (FILE, its
+/// --json). A track is returned: each frame's own ("track"), that which explain found ("track:FILE"), or keys
+/// (FILE, parse_adaptation_keys). For `frames` and `track` the unit has to be known: Error(usage) names a
+/// frame that does not tell it. Without
 /// --adaptation-from, and where each frame would be metered by itself, warns that the result may flicker.
-std::optional<AdaptationTrack> settle_shot(const std::string& adaptation_from, ImageSettings& settings, const std::vector<Frame>& frames,
-                 const FrameOptions& options, const Console& console);
+std::optional<AdaptationTrack> settle_shot(const std::string& adaptation_from, ImageSettings& settings,
+                                           const std::vector<Frame>& frames, const FrameOptions& options,
+                                           const Console& console);
 
 }  // namespace scotopic

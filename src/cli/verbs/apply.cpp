@@ -58,9 +58,10 @@ nlohmann::ordered_json ApplyJob::run(const ImageJob& asked, const Console& conso
   ImageJob job = asked;
   if (track_) job.adaptation = track_->at(job.moment.frame);
   const ImageReport report = run_image(job, settings_, *evaluators_, console.notes());
-  tell_non_finite(report.non_finite, job.input,
-                  settings_.non_finite == NonFinite::clean ? "cleaned" : "passed on without the operator (--nonfinite)",
-                  console);
+  tell_non_finite(
+      report.non_finite, job.input,
+      settings_.non_finite == NonFinite::clean ? "cleaned" : "passed on without the operator (--nonfinite)",
+      console);
   return image_json(report);
 }
 
@@ -74,7 +75,9 @@ int run_apply(const ApplyWords& options) {
   check_places(frames, options.frames);
   job.follow(settle_shot(options.adaptation_from, job.scene(), frames, options.frames, console));
   if (frames.size() > 1 && job.measures_display())
-    console.note("each frame's range is mapped to the display by itself, which can flicker: --display-range holds one");
+    console.note(
+        "each frame's range is mapped to the display by itself, which can flicker: --display-range holds "
+        "one");
   return run_frames("apply", job, frames, options.frames, console);
 }
 
@@ -86,7 +89,8 @@ void add_apply(CLI::App& program, Invocation& invocation) {
   verb.footer(
       "Examples:\n"
       "  scotopic apply night.exr -o seen.exr --adaptation 0.05\n"
-      "  scotopic apply in.####.exr -o seen.####.exr --frames 1-240 --adaptation-from frames --white-luminance 5");
+      "  scotopic apply in.####.exr -o seen.####.exr --frames 1-240 --adaptation-from frames "
+      "--white-luminance 5");
   verb.add_option("input", options->input, "EXR, TIFF, PNG, JPEG or HDR: RGB, L, M, S, R, or spectral bands")
       ->required()
       ->type_name("IN");

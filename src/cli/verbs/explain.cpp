@@ -50,8 +50,7 @@ int run_explain_config(const ExplainOptions& options, const Console& console) {
   return static_cast<int>(ExitCode::done);
 }
 
-int run_explain_image(const ExplainOptions& options, const ImageSettings& settings,
-                      const Console& console) {
+int run_explain_image(const ExplainOptions& options, const ImageSettings& settings, const Console& console) {
   ImageJob job;
   job.input = options.input;
   const SceneReport scene = read_scene(job, settings, Statistics::of_all_pixels, console.notes());
@@ -63,7 +62,8 @@ int run_explain_image(const ExplainOptions& options, const ImageSettings& settin
     std::fputs(luminance_csv(statistics, numbers.white_luminance).c_str(), stdout);
   else if (!console.json())
     print(light, numbers, statistics, scene.plan, costs);
-  if (const std::string advice = unit_advice(statistics, numbers.adaptation, numbers.white_luminance); !advice.empty())
+  if (const std::string advice = unit_advice(statistics, numbers.adaptation, numbers.white_luminance);
+      !advice.empty())
     console.note(options.input + ": " + advice);
   tell_non_finite(scene.non_finite, options.input, "in none of these numbers", console);
   console.result(explain_json(options.input, light, scene, costs));
@@ -93,8 +93,9 @@ int run_explain(const ExplainOptions& options) {
   set_threads(options.common.threads);
   check_places(frames, options.frames);
   if (!frames.front().number) return run_explain_image(options, settings, console);
-  const FramesTable table =
-      options.csv ? FramesTable::csv : console.json() ? FramesTable::none : FramesTable::bars;
+  const FramesTable table = options.csv      ? FramesTable::csv
+                            : console.json() ? FramesTable::none
+                                             : FramesTable::bars;
   return explain_frames(settings, frames, options.frames, table, console);
 }
 
@@ -103,7 +104,8 @@ int run_explain(const ExplainOptions& options) {
 void add_explain(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<ExplainOptions>();
   CLI::App& verb = *program.add_subcommand("explain", "What light a scene holds, and what it calls for");
-  verb.footer("Examples:\n"
+  verb.footer(
+      "Examples:\n"
       "  scotopic explain night.exr --white-luminance 10\n"
       "  scotopic explain in.####.exr --frames 1-240 --white-luminance 10 --csv > shot.csv\n"
       "  scotopic explain ocio_config/config.ocio");
@@ -115,8 +117,9 @@ void add_explain(CLI::App& program, Invocation& invocation) {
   add_reading_frame_options(verb, options->frames);
   add_band_options(verb, options->scene.bands);
   add_input_options(verb, options->scene.image);
-  CLI::Option* const csv = verb.add_flag(
-      "--csv", options->csv, "The luminance histogram, or a sequence's adaptation, as comma-separated values");
+  CLI::Option* const csv =
+      verb.add_flag("--csv", options->csv,
+                    "The luminance histogram, or a sequence's adaptation, as comma-separated values");
   add_common_options(verb, options->common);
   csv->excludes(verb.get_option("--json"));
   on_command_line(verb, invocation, options, run_explain);

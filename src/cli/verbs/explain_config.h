@@ -14,8 +14,8 @@ struct ExplainedLook {
   std::string does;         ///< "nothing", "one matrix", "a 3D LUT of 33 nodes a side between 8 other steps"
 };
 
-/// The looks in the config's order, each as OCIO would run it, optimised. A look that cannot be made into a processor says
-/// why in `does`.
+/// The looks in the config's order, each as OCIO would run it, optimised. A look that cannot be made into a
+/// processor says why in `does`.
 std::vector<ExplainedLook> explain_looks(const ColourConfig& config);
 
 }  // namespace scotopic

@@ -47,7 +47,8 @@ void meter_one(const ImageSettings& settings, const Frame& frame, const Console&
   const SceneReport scene = read_scene(job, settings, Statistics::of_all_pixels, console.notes());
   out.resolution = scene.resolution;
   out.frame_rate = scene.frame_rate;
-  out.light = {*frame.number, frame.paths.input, scene.numbers, scene.statistics->sp_ratio(), running(scene.plan)};
+  out.light = {*frame.number, frame.paths.input, scene.numbers, scene.statistics->sp_ratio(),
+               running(scene.plan)};
 }
 
 std::vector<Metered> meter_all(const ImageSettings& settings, const std::vector<Frame>& frames,
@@ -86,19 +87,21 @@ std::vector<AdaptationTrace> traces_of(const std::vector<FrameLight>& frames, co
 /// Whether the frame calls for time, by an eye that follows the frames before it.
 void set_time(FrameLight& light, const AdaptationTrace& trace, const ImageSettings& settings) {
   std::erase(light.effects, "time");
-  if (settings.time.history.empty() || !adaptation_is_called_for(trace.thresholds, light.numbers.adaptation)) return;
+  if (settings.time.history.empty() || !adaptation_is_called_for(trace.thresholds, light.numbers.adaptation))
+    return;
   light.effects.emplace_back("time");
 }
 
 /// "; rods at 2.1 decades over their absolute threshold, cones at 3.0, 0.02 of what an adapted eye sees".
 std::string trace_text(const AdaptationTrace& trace) {
   const AdaptationThresholds& t = trace.thresholds;
-  return fmt::format("; threshold 10^{:.2f} of rods, 10^{:.2f} of cones, {:.3g} of what an adapted eye sees", t.rod_log10,
-                     t.cone_log10, t.exposure);
+  return fmt::format("; threshold 10^{:.2f} of rods, 10^{:.2f} of cones, {:.3g} of what an adapted eye sees",
+                     t.rod_log10, t.cone_log10, t.exposure);
 }
 
-void print(const std::vector<FrameLight>& frames, const std::vector<AdaptationTrace>& traces, const ShotLight& shot,
-           const std::vector<std::string>& effects, const std::vector<PlanChange>& changes) {
+void print(const std::vector<FrameLight>& frames, const std::vector<AdaptationTrace>& traces,
+           const ShotLight& shot, const std::vector<std::string>& effects,
+           const std::vector<PlanChange>& changes) {
   constexpr int width = 30;
   const double span = std::log(shot.greatest / shot.least);
   fmt::print("   frame   La, cd/m2    S/P  {:<{}}  calls for\n", "", width);
@@ -112,10 +115,13 @@ void print(const std::vector<FrameLight>& frames, const std::vector<AdaptationTr
   }
   for (const PlanChange& c : changes)
     fmt::print("from frame {} on: {}{}{}\n", c.frame, c.begins.empty() ? "" : "with " + joined(c.begins),
-               c.begins.empty() || c.ends.empty() ? "" : ", ", c.ends.empty() ? "" : "without " + joined(c.ends));
+               c.begins.empty() || c.ends.empty() ? "" : ", ",
+               c.ends.empty() ? "" : "without " + joined(c.ends));
   if (changes.empty()) fmt::print("all frames call for the same\n");
-  fmt::print("the shot, as --adaptation-from frames takes it: {:.4g} cd/m2 (median of {} frames, {:.4g} to {:.4g}): {}\n",
-             shot.median, shot.frames, shot.least, shot.greatest, joined(effects));
+  fmt::print(
+      "the shot, as --adaptation-from frames takes it: {:.4g} cd/m2 (median of {} frames, {:.4g} to {:.4g}): "
+      "{}\n",
+      shot.median, shot.frames, shot.least, shot.greatest, joined(effects));
 }
 
 void print_csv(const std::vector<FrameLight>& frames) {
@@ -124,8 +130,10 @@ void print_csv(const std::vector<FrameLight>& frames) {
     fmt::print("{},{:g},{:g},{}\n", f.frame, f.numbers.adaptation, f.sp_ratio, fmt::join(f.effects, " "));
 }
 
-nlohmann::ordered_json result_of(const std::vector<FrameLight>& frames, const std::vector<AdaptationTrace>& traces,
-                                 const ShotLight& shot, const std::vector<std::string>& effects, const std::vector<PlanChange>& changes) {
+nlohmann::ordered_json result_of(const std::vector<FrameLight>& frames,
+                                 const std::vector<AdaptationTrace>& traces, const ShotLight& shot,
+                                 const std::vector<std::string>& effects,
+                                 const std::vector<PlanChange>& changes) {
   nlohmann::ordered_json out;
   out["shot"] = shot_json(shot);
   out["shot"]["effects"] = effects;
@@ -164,8 +172,8 @@ std::vector<PlanChange> plan_changes(const std::vector<FrameLight>& frames) {
   return changes;
 }
 
-int explain_frames(const ImageSettings& settings, const std::vector<Frame>& frames, const FrameOptions& options,
-                   FramesTable table, const Console& console) {
+int explain_frames(const ImageSettings& settings, const std::vector<Frame>& frames,
+                   const FrameOptions& options, FramesTable table, const Console& console) {
   std::vector<FrameLight> lights;
   std::vector<double> adaptations;
   std::optional<Error> failure;

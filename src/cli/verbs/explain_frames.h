@@ -25,11 +25,12 @@ struct PlanChange {
 };
 std::vector<PlanChange> plan_changes(const std::vector<FrameLight>& frames);
 
-/// What is printed: a table with bars and the changes, a row of comma-separated values a frame, or --json alone.
+/// What is printed: a table with bars and the changes, a row of comma-separated values a frame, or --json
+/// alone.
 enum class FramesTable { bars, csv, none };
 
 /// Meters every frame and prints what it found; returns the exit code.
-int explain_frames(const ImageSettings& settings, const std::vector<Frame>& frames, const FrameOptions& options,
-                   FramesTable table, const Console& console);
+int explain_frames(const ImageSettings& settings, const std::vector<Frame>& frames,
+                   const FrameOptions& options, FramesTable table, const Console& console);
 
 }  // namespace scotopic

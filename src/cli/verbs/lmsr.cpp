@@ -55,8 +55,8 @@ RodChoice understand_rods(const LmsrOptions& o, const IlluminantChoice& illumina
 
 SpectralOptions understand_spectral(const LmsrOptions& o, const IlluminantChoice& illuminant) {
   SpectralOptions out = understand(o.bands, illuminant, o.image.layer);
-  out.accumulation = choice<Accumulation>(
-      "--precision", o.accumulation, {{"double", Accumulation::dual}, {"float", Accumulation::single}});
+  out.accumulation = choice<Accumulation>("--precision", o.accumulation,
+                                          {{"double", Accumulation::dual}, {"float", Accumulation::single}});
   out.xyz = false;
   return out;
 }
@@ -128,10 +128,10 @@ nlohmann::ordered_json LmsrJob::run(const ImageJob& job, const Console& console)
   const std::string rods = rods_of(light.channels.kind);
   const Unit unit = unit_of(source->pictures()[light.index], light.channels.kind);
   for (const std::string& note : layout.notes) console.note(source->file() + ": " + note);
-  console.note(
-      unit.cdm2 ? fmt::format("{}: signal 1 is {:.4g} cd/m2 ({}); rods {}", source->file(), *unit.cdm2,
-                              unit.source, rods)
-                : fmt::format("{}: cd/m2 of signal 1 {}; rods {}", source->file(), unit.source, rods));
+  console.note(unit.cdm2
+                   ? fmt::format("{}: signal 1 is {:.4g} cd/m2 ({}); rods {}", source->file(), *unit.cdm2,
+                                 unit.source, rods)
+                   : fmt::format("{}: cd/m2 of signal 1 {}; rods {}", source->file(), unit.source, rods));
   set_stamps(layout, stamps_of(unit, rods, job.provenance));
   const NonFinitePixels non_finite = write_lmsr(*source, layout, config_, rods_, file, job.progress);
 
@@ -164,8 +164,9 @@ void add_lmsr(CLI::App& program, Invocation& invocation) {
       "Examples:\n"
       "  scotopic lmsr spectral.exr -o lmsr.exr -d half\n"
       "  scotopic lmsr night.####_%d.exr -o lmsr.####.exr --frames 1-24");
-  verb.add_option("input", options->input,
-                  "Spectral EXR, a pattern like night_%d.exr (nm), or any image in colour; a pattern with --frames")
+  verb.add_option(
+          "input", options->input,
+          "Spectral EXR, a pattern like night_%d.exr (nm), or any image in colour; a pattern with --frames")
       ->required()
       ->type_name("IN");
   verb.add_option("-o,--output", options->output, "EXR with channels L, M, S, R")

@@ -146,8 +146,8 @@ int run_time(const TimeOptions& options) {
   set_primaries(choice, config);
   set_threads(options.common.threads);
   // A picture to restore from, and four at work.
-  check_limit("", "bytes of memory planned", static_cast<std::int64_t>(pixels) * 5 * 12, options.image.limits.memory,
-              "--max-memory");
+  check_limit("", "bytes of memory planned", static_cast<std::int64_t>(pixels) * 5 * 12,
+              options.image.limits.memory, "--max-memory");
   Subject subject =
       options.input.empty() ? subject_by_formula(choice) : subject_of_image(options, choice, config, console);
   const TimedPicture picture = repeated(subject.picture, pixels);

@@ -15,7 +15,8 @@ RowConverter::RowConverter(OCIO::ConstCPUProcessorRcPtr processor)
 RowConverter::RowConverter(const TransferCurve& curve, const Matrix3<double>& matrix, bool decode)
     : matrix_(matrix), curve_(curve), decode_(decode) {}
 
-RowConverter::RowConverter(std::shared_ptr<const EmbeddedProfile> embedded, const Matrix3<double>& matrix, bool decode)
+RowConverter::RowConverter(std::shared_ptr<const EmbeddedProfile> embedded, const Matrix3<double>& matrix,
+                           bool decode)
     : matrix_(matrix), decode_(decode), embedded_(std::move(embedded)) {}
 
 RowConverter::RowConverter(std::shared_ptr<const IccProfile> profile, const Matrix3<double>& xyz_from_rgb)

@@ -24,10 +24,11 @@ enum class ExifColour { none, srgb, adobe_rgb };
 
 /// All that a file's header or chunks state of its colours.
 struct ColourTags {
-  std::string interop_id;              ///< OpenEXR's colorInteropID
-  bool aces_container = false;         ///< acesImageContainerFlag is 1: SMPTE ST 2065-4
-  std::optional<Primaries> primaries;  ///< chromaticities; cHRM; PrimaryChromaticities and WhitePoint; PRIMARIES
-  std::optional<Xy> adopted_neutral;   ///< adoptedNeutral: what counts as white
+  std::string interop_id;       ///< OpenEXR's colorInteropID
+  bool aces_container = false;  ///< acesImageContainerFlag is 1: SMPTE ST 2065-4
+  std::optional<Primaries>
+      primaries;  ///< chromaticities; cHRM; PrimaryChromaticities and WhitePoint; PRIMARIES
+  std::optional<Xy> adopted_neutral;  ///< adoptedNeutral: what counts as white
   std::shared_ptr<const std::vector<std::byte>> icc;
   std::optional<CodePoints> code_points;
   std::optional<double> gamma;  ///< that decodes: 1/gAMA

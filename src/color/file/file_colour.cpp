@@ -43,7 +43,8 @@ std::optional<Statement> by_id(const std::string& id, const std::string& file, c
   const std::string camera = camera_curve(id);
   if (!camera.empty())
     throw Error(ExitCode::input, file,
-                fmt::format("colorInteropID '{}' is {}, which the config has no space for under that name{}", id, camera, say_it));
+                fmt::format("colorInteropID '{}' is {}, which the config has no space for under that name{}",
+                            id, camera, say_it));
   throw Error(
       ExitCode::input, file,
       fmt::format(

@@ -18,11 +18,12 @@ struct FileColour {
   std::vector<std::string> notes;
 };
 
-/// By the first of these that the file has: acesImageContainerFlag, colorInteropID, cICP (which PNG 3 ranks above
-/// iCCP), ICC profile, sRGB, gAMA and cHRM, chromaticities, Exif, the config's rules for the file's name and its roles.
-/// Of integers with primaries but no curve the curve is sRGB's, of others none. Throws
-/// Error(input) for colours that are not understood: an identifier that neither is published nor names one of the
-/// config's spaces, a camera's log curve, code points that are reserved, primaries on one line, a damaged profile.
+/// By the first of these that the file has: acesImageContainerFlag, colorInteropID, cICP (which PNG 3 ranks
+/// above iCCP), ICC profile, sRGB, gAMA and cHRM, chromaticities, Exif, the config's rules for the file's
+/// name and its roles. Of integers with primaries but no curve the curve is sRGB's, of others none. Throws
+/// Error(input) for colours that are not understood: an identifier that neither is published nor names one of
+/// the config's spaces, a camera's log curve, code points that are reserved, primaries on one line, a damaged
+/// profile.
 FileColour colour_of_file(const ColourTags& tags, const std::string& file, bool integer, int bits,
                           const ColourConfig& config);
 

@@ -22,16 +22,17 @@ struct RgbEncoding {
   Matrix3<double> xyz_from_rgb = identity3<double>();
 };
 
-/// What a published identifier stands for: "Color Space Encodings for Texture Assets and CG Rendering" 1.1.0 (17) and
-/// "Color Space Encodings for Displays" (15) of the ASWF Color Interop Forum, 2026, and the name that earlier papers had
-/// (srgbx_p3d65_display). nullopt for `data`, `unknown` and anything that is not published.
+/// What a published identifier stands for: "Color Space Encodings for Texture Assets and CG Rendering" 1.1.0
+/// (17) and "Color Space Encodings for Displays" (15) of the ASWF Color Interop Forum, 2026, and the name
+/// that earlier papers had (srgbx_p3d65_display). nullopt for `data`, `unknown` and anything that is not
+/// published.
 std::optional<RgbEncoding> interop_encoding(std::string_view id);
 
 /// The identifier without its leftmost namespace and one separator; empty where it has none.
 std::string without_namespace(const std::string& id);
 
-/// Whether its values are those of a camera's or a grading system's curve (ACEScc, LogC, S-Log3, ...): "ACEScct",
-/// "ARRI LogC4", ... by what the name begins with; empty for others.
+/// Whether its values are those of a camera's or a grading system's curve (ACEScc, LogC, S-Log3, ...):
+/// "ACEScct", "ARRI LogC4", ... by what the name begins with; empty for others.
 std::string camera_curve(std::string_view id);
 
 }  // namespace scotopic

@@ -15,15 +15,15 @@ struct WrittenTags {
   std::optional<Xy> adopted_neutral;   ///< where its white is not that of (1, 1, 1)
   bool srgb = false;                   ///< sRGB's primaries and curve
   bool linear = false;                 ///< light as it is
-  /// For formats that embed one: of the device, the file's own, or made for primaries and curve; absent for sRGB and
-  /// where nothing is known but a name.
+  /// For formats that embed one: of the device, the file's own, or made for primaries and curve; absent for
+  /// sRGB and where nothing is known but a name.
   std::shared_ptr<const std::vector<std::byte>> icc;
 };
 
 WrittenTags written_tags(const ColourSpace& space, const ColourConfig& config);
 
-/// Whether an OpenEXR file (`exr`), or one that embeds a profile, can say that its values are in this space. OpenEXR
-/// says so of linear light, and of what the file's own colorInteropID named (`named`).
+/// Whether an OpenEXR file (`exr`), or one that embeds a profile, can say that its values are in this space.
+/// OpenEXR says so of linear light, and of what the file's own colorInteropID named (`named`).
 bool can_be_stated(const ColourSpace& space, bool exr, bool named);
 
 /// An ICC profile (version 2) of encoded RGB; empty for a curve that such a one cannot hold (PQ, HLG).

@@ -25,8 +25,9 @@ class EmbeddedProfile {
   /// Whether light can be turned into its values: some profiles only lead from the device.
   bool can_be_written() const noexcept;
 
-  /// Rows of device values become CIE XYZ, relative colorimetric, adapted from D50 to D65 by Bradford: white is the XYZ
-  /// of D65 with Y = 1. Of a grey profile r counts. Unbounded where the profile is matrix and curves.
+  /// Rows of device values become CIE XYZ, relative colorimetric, adapted from D50 to D65 by Bradford: white
+  /// is the XYZ of D65 with Y = 1. Of a grey profile r counts. Unbounded where the profile is matrix and
+  /// curves.
   void to_xyz(float* r, float* g, float* b, std::size_t count) const;
   /// And back.
   void from_xyz(float* r, float* g, float* b, std::size_t count) const;

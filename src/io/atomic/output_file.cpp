@@ -77,8 +77,8 @@ std::string followed(const std::string& path) {
   return error ? at.string() : (real / at.filename()).string();
 }
 
-/// 0, or why the names in a folder may not be on the disk. A folder that may not be read, or a file system that does not
-/// sync folders, is no fault.
+/// 0, or why the names in a folder may not be on the disk. A folder that may not be read, or a file system
+/// that does not sync folders, is no fault.
 int sync_folder(const std::string& folder) {
   const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return 0;
@@ -96,7 +96,8 @@ int sync_folder(const std::string& folder) {
 }  // namespace
 
 OutputFile::OutputFile(const std::string& path) : path_(path), target_(followed(path)) {
-  if (path == "-") refuse(path_, "standard output cannot be written to: name a file (./- for one of that name)");
+  if (path == "-")
+    refuse(path_, "standard output cannot be written to: name a file (./- for one of that name)");
   struct stat info = {};
   const bool exists = stat(target_.c_str(), &info) == 0;
   // A name that is too long, a folder that may not be entered: better known now than after the work.
@@ -279,8 +280,9 @@ void OutputFile::publish() {
   descriptor_ = -1;
   // The name, too, should survive a power cut.
   if (const int unsynced = sync_folder(folder_))
-    refuse(path_, std::string("is in place, but might not survive a power cut: its folder cannot be synced: ") +
-                      std::strerror(unsynced));
+    refuse(path_,
+           std::string("is in place, but might not survive a power cut: its folder cannot be synced: ") +
+               std::strerror(unsynced));
 }
 
 int files_in_place() noexcept { return published; }

@@ -14,8 +14,9 @@ namespace scotopic {
 
 /// Opens a nameless file (O_TMPFILE, else a hidden temporary) in the target's folder; commit() checks, syncs
 /// and puts it in the target's place in one step; without commit() nothing stays. The target may be a file
-/// being read. A target that is a folder, a device or write-protected is refused; a symbolic link is followed,
-/// the mode of an existing file kept. Throws Error(ExitCode::output). Not for use by two threads at once.
+/// being read. A target that is a folder, a device or write-protected is refused; a symbolic link is
+/// followed, the mode of an existing file kept. Throws Error(ExitCode::output). Not for use by two threads at
+/// once.
 ///
 /// Only a kill that no program can catch, between two system calls of publish(), leaves a hidden temporary;
 /// the next OutputFile of that target removes it (it is locked while its program lives).
@@ -50,8 +51,8 @@ class OutputFile {
 
   /// Throws unless every byte is on the disk. The target is as it was.
   void complete();
-  /// Puts the completed file in its place, in one step; throws, and leaves the target as it was, if it cannot. Throws, too,
-  /// where the file is in place but its folder cannot be synced.
+  /// Puts the completed file in its place, in one step; throws, and leaves the target as it was, if it
+  /// cannot. Throws, too, where the file is in place but its folder cannot be synced.
   void publish();
   /// Both.
   void commit() {

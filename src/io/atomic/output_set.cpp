@@ -43,7 +43,8 @@ void OutputSet::write(OutputFile& file, const std::string& text) {
   std::string back(text.size(), '\0');
   file.seek(0);
   back.resize(file.read(back.data(), back.size()));
-  if (back != text) throw Error(ExitCode::output, file.path(), "what was written reads back as something else");
+  if (back != text)
+    throw Error(ExitCode::output, file.path(), "what was written reads back as something else");
 }
 
 OutputFile& OutputSet::add(const std::string& path, const std::string& text) {

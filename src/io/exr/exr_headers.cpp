@@ -114,14 +114,16 @@ bool read_attribute(HeaderReader& in, PartSizes& part) {
   const std::string type = in.name();
   const std::int64_t size = in.number<std::int32_t>();
   if (size < 0 || size > in.left())
-    in.fail(fmt::format("is truncated or damaged: attribute {} has {} bytes, the file {} more", name, size, in.left()));
+    in.fail(fmt::format("is truncated or damaged: attribute {} has {} bytes, the file {} more", name, size,
+                        in.left()));
   const std::int64_t end = in.left() - size;
   if (name == "dataWindow" && type == "box2i" && size == 16) read_window(in, part);
   if (name == "channels" && type == "chlist") count_channels(in, end, part);
   if (name == "compression" && size == 1) part.compression = static_cast<unsigned char>(in.next());
   if (type == "preview" && size >= 8) {
     const std::int64_t width = in.number<std::uint32_t>(), height = in.number<std::uint32_t>();
-    if (height > 0 && width > (size - 8) / 4 / height) in.fail("is damaged: its preview is larger than its header");
+    if (height > 0 && width > (size - 8) / 4 / height)
+      in.fail("is damaged: its preview is larger than its header");
   }
   if (name == "tiles" && size == 9) {
     part.tile_width = in.number<std::uint32_t>();
@@ -145,10 +147,10 @@ std::int64_t chunks_of(const PartSizes& part) {
 void check_compression(const PartSizes& part, HeaderReader& in) {
   if (part.compression < Imf::NUM_COMPRESSION_METHODS) return;
   const bool htj2k = part.compression == htj2k256 || part.compression == htj2k32;
-  in.fail(fmt::format("{}: OpenEXR {} here does not know {}",
-                      htj2k ? "was written by a newer OpenEXR" : "was written by a newer OpenEXR, or is damaged",
-                      OPENEXR_VERSION_STRING,
-                      htj2k ? "compression HTJ2K" : fmt::format("compression {}", part.compression)));
+  in.fail(fmt::format(
+      "{}: OpenEXR {} here does not know {}",
+      htj2k ? "was written by a newer OpenEXR" : "was written by a newer OpenEXR, or is damaged",
+      OPENEXR_VERSION_STRING, htj2k ? "compression HTJ2K" : fmt::format("compression {}", part.compression)));
 }
 
 void check_part(const std::string& file, const PartSizes& part, const Limits& limits, HeaderReader& in,

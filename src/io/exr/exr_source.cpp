@@ -34,7 +34,8 @@ bool is_deep(const Imf::Header& header) {
 
 bool is_luminance_chroma(const Imf::Header& header) {
   const Imf::ChannelList& channels = header.channels();
-  return !is_deep(header) && channels.findChannel("Y") && channels.findChannel("RY") && channels.findChannel("BY");
+  return !is_deep(header) && channels.findChannel("Y") && channels.findChannel("RY") &&
+         channels.findChannel("BY");
 }
 
 bool is_tiled(const Imf::Header& header) { return header.hasTileDescription(); }
@@ -65,8 +66,8 @@ std::string text_attribute(const Imf::Header& header, const char* name) {
   return found ? found->value() : "";
 }
 
-/// By the Color Interop Forum's "Identifying the Color Space of OpenEXR Files" the first part's identifier holds for the
-/// whole file; other parts need none, but may be data.
+/// By the Color Interop Forum's "Identifying the Color Space of OpenEXR Files" the first part's identifier
+/// holds for the whole file; other parts need none, but may be data.
 ColourTags colour_tags(const Imf::Header& header, const Imf::Header& first) {
   ColourTags tags;
   const auto* container = header.findTypedAttribute<Imf::IntAttribute>("acesImageContainerFlag");
@@ -211,14 +212,16 @@ void ExrSource::add_luminance_chroma(Picture picture) {
   picture.channels.clear();
   for (const char* name : {"R", "G", "B"}) picture.channels.push_back({name, PixelType::half});
   if ((rgba_->channels() & Imf::WRITE_A) != 0) picture.channels.push_back({"A", PixelType::half});
-  picture.notes.push_back("luminance and chroma (Y, RY, BY) become R, G, B of half; its other channels are left out");
+  picture.notes.push_back(
+      "luminance and chroma (Y, RY, BY) become R, G, B of half; its other channels are left out");
   pictures_.push_back(picture);
 }
 
 void ExrSource::read_luminance_chroma(const Picture& picture, int y0, int rows, Band& band) {
   const auto width = static_cast<std::size_t>(picture.data.width());
   std::vector<Imf::Rgba> pixels(width * static_cast<std::size_t>(rows));
-  rgba_->setFrameBuffer(pixels.data() - picture.data.x0 - static_cast<std::ptrdiff_t>(y0) * picture.data.width(), 1, width);
+  rgba_->setFrameBuffer(
+      pixels.data() - picture.data.x0 - static_cast<std::ptrdiff_t>(y0) * picture.data.width(), 1, width);
   rgba_->readPixels(y0, y0 + rows - 1);
   for (std::size_t c = 0; c < picture.channels.size(); ++c)
     for (std::size_t i = 0; i < pixels.size(); ++i) {

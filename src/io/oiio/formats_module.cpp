@@ -33,8 +33,8 @@ bool has_address_space() {
   return true;
 }
 
-/// The libraries that OpenImageIO brings heed variables of their own while they are loaded; for some they print, or
-/// end the program. In here there are none.
+/// The libraries that OpenImageIO brings heed variables of their own while they are loaded; for some they
+/// print, or end the program. In here there are none.
 class EmptyEnvironment {
  public:
   EmptyEnvironment() { environ = none_; }
@@ -49,7 +49,8 @@ class EmptyEnvironment {
 
 const FormatsModule* load(const std::string& file) {
   const auto refuse = [&](ExitCode code, const std::string& reason) {
-    throw Error(code, file, "cannot load scotopic_formats.so, which knows TIFF, PNG, JPEG and HDR: " + reason);
+    throw Error(code, file,
+                "cannot load scotopic_formats.so, which knows TIFF, PNG, JPEG and HDR: " + reason);
   };
   if (!has_descriptors()) refuse(ExitCode::limit, "too few files can be opened");
   if (!has_address_space()) refuse(ExitCode::limit, "512 MiB of address space are not to be had (ulimit -v)");

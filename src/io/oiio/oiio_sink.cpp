@@ -20,8 +20,8 @@
 namespace scotopic {
 namespace {
 
-/// OpenImageIO's stream over an OutputFile. C libraries call it: nothing may be thrown here. Nothing says `override`:
-/// tell() is const from OpenImageIO 3.0 on, so that one of its two forms overrides nothing.
+/// OpenImageIO's stream over an OutputFile. C libraries call it: nothing may be thrown here. Nothing says
+/// `override`: tell() is const from OpenImageIO 3.0 on, so that one of its two forms overrides nothing.
 class Proxy : public OIIO::Filesystem::IOProxy {
  public:
   explicit Proxy(OutputFile& file) : IOProxy("", Write), file_(file) {}
@@ -123,10 +123,9 @@ class OiioSink : public PixelSink {
     if (!opened_ || index != current_) open(index);
     const OIIO::ImageSpec& spec = specs_[index];
     const int y0 = band.y0 - pictures_[index].picture.data.y0 + spec.y, y1 = y0 + band.rows;
-    const bool ok = spec.tile_width
-                        ? output_->write_tiles(spec.x, spec.x + spec.width, y0, y1, 0, 1, spec.format,
-                                               band.storage.data())
-                        : output_->write_scanlines(y0, y1, 0, spec.format, band.storage.data());
+    const bool ok = spec.tile_width ? output_->write_tiles(spec.x, spec.x + spec.width, y0, y1, 0, 1,
+                                                           spec.format, band.storage.data())
+                                    : output_->write_scanlines(y0, y1, 0, spec.format, band.storage.data());
     if (!ok) fail(output_->geterror());
     file_.check();
     hashes_[index] = hash_of(band.storage, hashes_[index]);
@@ -167,7 +166,8 @@ class OiioSink : public PixelSink {
     hints.attribute("oiio:UnassociatedAlpha", 1);
     if (!input || !input->open(name_, spec, hints)) fail("it cannot be read back");
     for (std::size_t page = 0; page < pictures_.size(); ++page)
-      if (!same_page(*input, page)) fail("page " + std::to_string(page + 1) + " reads back as something else");
+      if (!same_page(*input, page))
+        fail("page " + std::to_string(page + 1) + " reads back as something else");
   }
 
   bool same_page(OIIO::ImageInput& input, std::size_t page) const {
@@ -184,10 +184,11 @@ class OiioSink : public PixelSink {
     for (int y = got.y; y < got.y + got.height; y += rows) {
       const int end = std::min(y + rows, got.y + got.height);
       pixels.resize(static_cast<std::size_t>(end - y) * got.scanline_bytes(true));
-      const bool ok = got.tile_width ? input.read_tiles(static_cast<int>(page), 0, got.x, got.x + got.width, y, end,
-                                                        got.z, got.z + 1, 0, got.nchannels, got.format, pixels.data())
-                                     : input.read_scanlines(static_cast<int>(page), 0, y, end, got.z, 0, got.nchannels,
-                                                            got.format, pixels.data());
+      const bool ok = got.tile_width
+                          ? input.read_tiles(static_cast<int>(page), 0, got.x, got.x + got.width, y, end,
+                                             got.z, got.z + 1, 0, got.nchannels, got.format, pixels.data())
+                          : input.read_scanlines(static_cast<int>(page), 0, y, end, got.z, 0, got.nchannels,
+                                                 got.format, pixels.data());
       if (!ok) return false;
       hash = hash_of(pixels, hash);
     }
@@ -218,7 +219,8 @@ class OiioSink : public PixelSink {
       spec.attribute("compression", "jpeg:" + std::to_string(out.jpeg_quality));
       spec.attribute("jpeg:subsampling", "4:4:4");
     }
-    // zlib's 4 takes half the time of its 6 for 2 to 9 % more bytes (1080p, 16 and 8 bits: 0.48 for 0.88 s, 0.26 for 0.41).
+    // zlib's 4 takes half the time of its 6 for 2 to 9 % more bytes (1080p, 16 and 8 bits: 0.48 for 0.88 s,
+    // 0.26 for 0.41).
     if (format_ == "png") spec.attribute("png:compressionLevel", 4);
     spec.erase_attribute("oiio:BitsPerSample");
     spec.attribute("Orientation", 1);  // sources are upright
@@ -250,8 +252,10 @@ class OiioSink : public PixelSink {
 
   static void set_profile(OIIO::ImageSpec& spec, const std::vector<std::byte>& profile) {
     // The profile alone says what the values mean.
-    for (const char* name : {"oiio:ColorSpace", "oiio:Gamma", "png:gAMA", "Exif:ColorSpace"}) spec.erase_attribute(name);
-    spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(profile.size())), profile.data());
+    for (const char* name : {"oiio:ColorSpace", "oiio:Gamma", "png:gAMA", "Exif:ColorSpace"})
+      spec.erase_attribute(name);
+    spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(profile.size())),
+                   profile.data());
   }
 
   void set_geometry(OIIO::ImageSpec& spec, const Picture& picture) const {
@@ -295,7 +299,7 @@ class OiioSink : public PixelSink {
   Proxy proxy_;
   std::vector<OutputPicture> pictures_;
   std::vector<OIIO::ImageSpec> specs_;
-  int memory_ = -1;  // a file of several pages, until it is whole
+  int memory_ = -1;                    // a file of several pages, until it is whole
   std::vector<std::uint64_t> hashes_;  // of the pixels of each page
   std::unique_ptr<OIIO::ImageOutput> output_;
   bool opened_ = false;

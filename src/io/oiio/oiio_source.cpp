@@ -27,8 +27,8 @@ std::optional<double> float_attribute(const OIIO::ImageSpec& spec, const char* n
   return value > 0 ? std::optional<double>(value) : std::nullopt;
 }
 
-/// libpng prints its complaints itself; while one of these lives, nobody hears them. They come back as return values.
-/// Several threads may read at once: the first takes descriptor 2 away, the last gives it back.
+/// libpng prints its complaints itself; while one of these lives, nobody hears them. They come back as return
+/// values. Several threads may read at once: the first takes descriptor 2 away, the last gives it back.
 class StderrHeld {
  public:
   StderrHeld() {
@@ -58,12 +58,14 @@ class StderrHeld {
 /// What OpenImageIO's readers keep: a tile, or the rows of a strip.
 std::int64_t bytes_held_by_oiio(const OIIO::ImageSpec& spec) {
   const auto pixel = static_cast<std::int64_t>(spec.pixel_bytes(true));
-  const std::int64_t strip = std::clamp(spec.get_int_attribute("tiff:RowsPerStrip", 1), 1, std::max(1, spec.height));
+  const std::int64_t strip =
+      std::clamp(spec.get_int_attribute("tiff:RowsPerStrip", 1), 1, std::max(1, spec.height));
   if (spec.tile_width == 0) return pixel * spec.width * strip;
   return pixel * spec.tile_width * std::max(1, spec.tile_height);
 }
 
-/// Its own limits do not name our options: check_limits decides. Which of them there are depends on its release.
+/// Its own limits do not name our options: check_limits decides. Which of them there are depends on its
+/// release.
 void lift_limits_of_oiio() {
   OIIO::attribute("limits:channels", 65535);  // as many as a TIFF can say
   OIIO::attribute("limits:imagesize_MB", INT32_MAX);
@@ -118,7 +120,8 @@ void OiioSource::add_picture(int page, const OIIO::ImageSpec& spec) {
   // Of Radiance's order of pixels OpenImageIO tells by the same name.
   scan.orientation = spec.get_int_attribute("Orientation", scan.orientation);
   if (scan.orientation < 1 || scan.orientation > 8) scan.orientation = 1;
-  picture.pixel_aspect = usable_aspect(static_cast<double>(spec.get_float_attribute("PixelAspectRatio", 1.0f)));
+  picture.pixel_aspect =
+      usable_aspect(static_cast<double>(spec.get_float_attribute("PixelAspectRatio", 1.0f)));
   if (turns(scan.orientation)) picture.pixel_aspect = 1 / picture.pixel_aspect;
   set_colour(picture, scan);
   set_upright(picture, scan);
@@ -128,7 +131,8 @@ void OiioSource::add_picture(int page, const OIIO::ImageSpec& spec) {
 
 void OiioSource::set_colour(Picture& picture, ImageScan& scan) const {
   if (scan.xyz)
-    for (std::size_t c = 0; c < 3 && c < picture.channels.size(); ++c) picture.channels[c].name = std::string(1, "XYZ"[c]);
+    for (std::size_t c = 0; c < 3 && c < picture.channels.size(); ++c)
+      picture.channels[c].name = std::string(1, "XYZ"[c]);
   picture.colour = scan.colour;
   if (scan.gain_map)
     picture.notes.push_back("its gain map is left out: the picture is the rendition for SDR displays");
@@ -144,17 +148,19 @@ void OiioSource::set_upright(Picture& picture, const ImageScan& scan) const {
   picture.data = turns(scan.orientation) ? Window{0, 0, height, width} : Window{0, 0, width, height};
   picture.display = picture.data;
   picture.chunk_rows = 1;
-  picture.notes.push_back(std::string("is ") + orientation_words(scan.orientation) + " to be upright, as its orientation has it");
+  picture.notes.push_back(std::string("is ") + orientation_words(scan.orientation) +
+                          " to be upright, as its orientation has it");
 }
 
 void OiioSource::read_stored(std::size_t index, int y0, int rows, std::byte* out) {
   const OIIO::ImageSpec& spec = specs_[index];
   const int page = pictures_[index].part;
   const StderrHeld held;
-  const bool ok = spec.tile_width
-                      ? input_->read_tiles(page, 0, spec.x, spec.x + spec.width, y0, y0 + rows, spec.z, spec.z + 1, 0,
-                                           spec.nchannels, spec.format, out)
-                      : input_->read_scanlines(page, 0, y0, y0 + rows, spec.z, 0, spec.nchannels, spec.format, out);
+  const bool ok =
+      spec.tile_width
+          ? input_->read_tiles(page, 0, spec.x, spec.x + spec.width, y0, y0 + rows, spec.z, spec.z + 1, 0,
+                               spec.nchannels, spec.format, out)
+          : input_->read_scanlines(page, 0, y0, y0 + rows, spec.z, 0, spec.nchannels, spec.format, out);
   if (!ok || input_->has_error()) fail("is truncated or damaged: " + input_->geterror());
 }
 
@@ -168,7 +174,8 @@ void OiioSource::read_upright(std::size_t index, int y0, int rows, std::byte* ou
     read_stored(index, spec.y, spec.height, page_.bytes.data());
     page_index_ = index;
   }
-  copy_upright(page_, scans_[index].orientation, static_cast<std::size_t>(y0), static_cast<std::size_t>(rows), out);
+  copy_upright(page_, scans_[index].orientation, static_cast<std::size_t>(y0), static_cast<std::size_t>(rows),
+               out);
 }
 
 void OiioSource::correct_exposure(const ImageScan& scan, Band& band) const {
@@ -177,7 +184,8 @@ void OiioSource::correct_exposure(const ImageScan& scan, Band& band) const {
   const std::size_t channels = band.channels.size();
   auto* const at = reinterpret_cast<float*>(band.storage.data());
   for (std::size_t i = 0; i < values; ++i)
-    at[i] = static_cast<float>(at[i] / (scan.exposure * scan.correction[std::min<std::size_t>(i % channels, 2)]));
+    at[i] =
+        static_cast<float>(at[i] / (scan.exposure * scan.correction[std::min<std::size_t>(i % channels, 2)]));
 }
 
 void OiioSource::read(std::size_t index, int y0, int rows, Band& band) {

@@ -17,7 +17,8 @@ inline void copy_pixels(const NativeRow& from, std::size_t count, const NativeRo
   }
   const std::byte* source = from.data;
   std::byte* target = to.data;
-  for (std::size_t i = 0; i < count; ++i, source += from.stride, target += to.stride) std::memcpy(target, source, size);
+  for (std::size_t i = 0; i < count; ++i, source += from.stride, target += to.stride)
+    std::memcpy(target, source, size);
 }
 
 }  // namespace scotopic

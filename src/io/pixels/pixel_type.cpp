@@ -53,7 +53,8 @@ void each_store(const float* values, std::size_t count, const NativeRow& row, Co
 /// Elements next to each other, where their type may be read and written.
 bool packed(const NativeRow& row) {
   const std::size_t size = size_of(row.type);
-  return row.stride == static_cast<std::ptrdiff_t>(size) && reinterpret_cast<std::uintptr_t>(row.data) % size == 0;
+  return row.stride == static_cast<std::ptrdiff_t>(size) &&
+         reinterpret_cast<std::uintptr_t>(row.data) % size == 0;
 }
 
 template <typename T>
@@ -61,11 +62,14 @@ T* elements(const NativeRow& row) {
   return reinterpret_cast<T*>(row.data);
 }
 
-/// Whether all bits of `exponent` are set in any value: passes without branches, in vectors where values lie together.
+/// Whether all bits of `exponent` are set in any value: passes without branches, in vectors where values lie
+/// together.
 template <typename Bits>
 bool any_has(Bits exponent, const NativeRow& row, std::size_t count) {
   Bits any = 0;
-  const auto see = [&](Bits value) { any = static_cast<Bits>(any | static_cast<Bits>((value & exponent) == exponent)); };
+  const auto see = [&](Bits value) {
+    any = static_cast<Bits>(any | static_cast<Bits>((value & exponent) == exponent));
+  };
   if (packed(row)) {
     const Bits* values = elements<const Bits>(row);
     for (std::size_t i = 0; i < count; ++i) see(values[i]);
@@ -115,13 +119,15 @@ bool any_non_finite(const NativeRow& row, std::size_t count) {
 
 bool any_non_finite(const float* values, std::size_t count) {
   std::uint32_t any = 0;
-  for (std::size_t i = 0; i < count; ++i) any |= (std::bit_cast<std::uint32_t>(values[i]) & 0x7f800000u) == 0x7f800000u;
+  for (std::size_t i = 0; i < count; ++i)
+    any |= (std::bit_cast<std::uint32_t>(values[i]) & 0x7f800000u) == 0x7f800000u;
   return any != 0;
 }
 
 void load_row(const NativeRow& row, std::size_t count, float* out) {
   if (packed(row)) {
-    if (row.type == PixelType::half) return floats_from_halves(elements<const std::uint16_t>(row), count, out);
+    if (row.type == PixelType::half)
+      return floats_from_halves(elements<const std::uint16_t>(row), count, out);
     if (row.type == PixelType::float32) {
       std::memcpy(out, row.data, count * sizeof(float));
       return;

@@ -38,7 +38,8 @@ class FileBytes {
 };
 
 /// An unsigned number of `width` bytes; 0 where it does not fit.
-inline std::uint64_t number_at(const std::vector<std::byte>& bytes, std::size_t at, std::size_t width, bool big_endian) {
+inline std::uint64_t number_at(const std::vector<std::byte>& bytes, std::size_t at, std::size_t width,
+                               bool big_endian) {
   if (at > bytes.size() || width > bytes.size() - at) return 0;
   std::uint64_t out = 0;
   for (std::size_t i = 0; i < width; ++i)

@@ -1,5 +1,5 @@
-// What TIFF, PNG, JPEG and HDR files say beside their pixels, read by ourselves: OpenImageIO knows less of it, and some
-// of it must be looked through before its decoders are let at it.
+// What TIFF, PNG, JPEG and HDR files say beside their pixels, read by ourselves: OpenImageIO knows less of
+// it, and some of it must be looked through before its decoders are let at it.
 #pragma once
 
 #include <array>
@@ -15,15 +15,15 @@ namespace scotopic {
 /// Of one picture (a page of a TIFF, else the file).
 struct ImageScan {
   ColourTags colour;
-  int orientation = 1;         ///< Exif's 1 to 8
-  double exposure = 1;         ///< pixels are this times the light (Radiance HDR), and
+  int orientation = 1;                        ///< Exif's 1 to 8
+  double exposure = 1;                        ///< pixels are this times the light (Radiance HDR), and
   std::array<double, 3> correction{1, 1, 1};  ///< these, of each channel
-  bool xyz = false;            ///< channels are X, Y, Z (Radiance xyze)
-  bool gain_map = false;       ///< a second picture makes an HDR one of it
+  bool xyz = false;                           ///< channels are X, Y, Z (Radiance xyze)
+  bool gain_map = false;                      ///< a second picture makes an HDR one of it
 };
 
-/// Throws Error(input) for a damaged or hostile ICC profile or XMP packet, and for pixels that are no RGB (CMYK, Lab,
-/// LogLuv). What is wrong in other ways is left to the format's own library to say.
+/// Throws Error(input) for a damaged or hostile ICC profile or XMP packet, and for pixels that are no RGB
+/// (CMYK, Lab, LogLuv). What is wrong in other ways is left to the format's own library to say.
 std::vector<ImageScan> scan_image(const std::string& file, const std::string& format);
 
 /// Each of a format; `file` is for errors.
@@ -32,13 +32,15 @@ ImageScan scan_jpeg(const std::string& file);
 std::vector<ImageScan> scan_tiff(const std::string& file);
 ImageScan scan_hdr(const std::string& file);
 
-/// Orientation, colour space and interoperability index of an Exif block (a TIFF of its own), as far as it goes.
+/// Orientation, colour space and interoperability index of an Exif block (a TIFF of its own), as far as it
+/// goes.
 void read_exif(std::span<const std::byte> block, ImageScan& scan);
 
 /// Throws Error(input) for a damaged profile, else keeps it.
 void keep_profile(std::vector<std::byte> profile, const std::string& file, ImageScan& scan);
 
-/// Throws Error(input) for XML whose elements nest deeper than 64 (recursion would end the stack); sets gain_map.
+/// Throws Error(input) for XML whose elements nest deeper than 64 (recursion would end the stack); sets
+/// gain_map.
 void check_xmp(std::span<const std::byte> packet, const std::string& file, ImageScan& scan);
 
 }  // namespace scotopic

@@ -6,8 +6,8 @@
 
 namespace scotopic {
 
-/// Whether an attribute is of the pixels that were: hashes and average colours of texture makers, thumbnails. By
-/// OpenImageIO's hash its texture cache would take the new picture for the old one.
+/// Whether an attribute is of the pixels that were: hashes and average colours of texture makers, thumbnails.
+/// By OpenImageIO's hash its texture cache would take the new picture for the old one.
 bool describes_pixels(std::string_view name);
 
 /// Whether an attribute says whose colours the values are: it holds for no other space.

@@ -123,7 +123,6 @@ bool same_grid(const std::vector<SpectralBand>& a, const std::vector<SpectralBan
          });
 }
 
-
 SpectralLayout layout_of_sets(BandSets& found, std::span<const ChannelName> channels) {
   for (auto& bands : found) sort_bands(bands, channels);
   for (std::size_t set = 1; set < reflectance; ++set)

@@ -248,8 +248,8 @@ void ExrSpectralSource::describe_picture(const Limits& limits) {
   pictures_.push_back(picture);
   check_limits(limits);
   const auto row = static_cast<std::int64_t>(bands_.size() * sizeof(float)) * picture.data.width();
-  check_limit(file(), "bytes of memory planned", planned_bytes(picture) + row * picture.chunk_rows, limits.memory,
-              "--max-memory");
+  check_limit(file(), "bytes of memory planned", planned_bytes(picture) + row * picture.chunk_rows,
+              limits.memory, "--max-memory");
 }
 
 bool ExrSpectralSource::open(const SpectralOptions& options, const Limits& limits) {
@@ -259,7 +259,8 @@ bool ExrSpectralSource::open(const SpectralOptions& options, const Limits& limit
     Imf::Header::setMaxTileSize(side, side);
     open_files(limits);
     if (!find_bands(options)) return false;
-    check_limit(file(), "bands", static_cast<std::int64_t>(layout_.bands.size()), limits.bands, "--max-bands");
+    check_limit(file(), "bands", static_cast<std::int64_t>(layout_.bands.size()), limits.bands,
+                "--max-bands");
     check_places();
     weigh(options);
     describe_picture(limits);

@@ -69,7 +69,8 @@ struct NodeWriter {
     put(out, "  <Matrix {}>\n    <Array dim=\"3 {}\">\n", depths, offset ? 4 : 3);
     for (std::size_t i = 0; i < 3; ++i) {
       const auto& row = step.matrix[i];
-      put(out, "{} {} {}", number_text(plain(row[0])), number_text(plain(row[1])), number_text(plain(row[2])));
+      put(out, "{} {} {}", number_text(plain(row[0])), number_text(plain(row[1])),
+          number_text(plain(row[2])));
       if (offset) put(out, " {}", number_text(plain(step.offset[i])));
       put(out, "\n");
     }

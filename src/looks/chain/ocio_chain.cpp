@@ -72,7 +72,8 @@ OCIO::ConstCPUProcessorRcPtr cpu_processor(const OCIO::ConstTransformRcPtr& tran
                                            const OCIO::ConstConfigRcPtr& config) {
   const OCIO::ConstProcessorRcPtr processor = config->getProcessor(transform);
   require_usable_luts(processor, "");
-  return processor->getOptimizedCPUProcessor(OCIO::BIT_DEPTH_F32, OCIO::BIT_DEPTH_F32, OCIO::OPTIMIZATION_LOSSLESS);
+  return processor->getOptimizedCPUProcessor(OCIO::BIT_DEPTH_F32, OCIO::BIT_DEPTH_F32,
+                                             OCIO::OPTIMIZATION_LOSSLESS);
 }
 
 }  // namespace scotopic

@@ -7,8 +7,9 @@
 
 namespace scotopic {
 
-/// Throws Error(output), about `path`, unless OpenColorIO reads the LUT in `file`, finds every number of its tables
-/// as in `chain`, and makes the same of colours over 28 stops, of black, negative and huge values, bit for bit.
+/// Throws Error(output), about `path`, unless OpenColorIO reads the LUT in `file`, finds every number of its
+/// tables as in `chain`, and makes the same of colours over 28 stops, of black, negative and huge values, bit
+/// for bit.
 void require_read_back(const std::string& file, const std::string& path, const Chain& chain);
 
 /// Throws Error(output), about `path`, unless OpenColorIO reads a LUT of any values in `file`.

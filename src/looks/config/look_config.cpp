@@ -80,7 +80,8 @@ std::string gamut_of(const std::string& display) {
 
 /// Views of a display appear in the order they are added: the night's after the plain one, raw values last.
 void add_night_views(OCIO::Config& config, const std::vector<NightViewEntry>& nights) {
-  for (const NightViewEntry& night : nights) add_night_transform(config, night.name + " " + night.gamut, night);
+  for (const NightViewEntry& night : nights)
+    add_night_transform(config, night.name + " " + night.gamut, night);
   for (int d = 0; d < config.getNumDisplays(); ++d) {
     const std::string display = config.getDisplay(d);
     config.removeDisplayView(display.c_str(), "Raw");
@@ -120,7 +121,8 @@ LookPlace place_beside(const OCIO::Config& config, const std::string& process_sp
   place.equality_groups = *neighbour->getEqualityGroup();
   // Nothing is to be worked in behind a look.
   for (int i = 0; i < neighbour->getNumCategories(); ++i)
-    if (std::string(neighbour->getCategory(i)) != "working-space") place.categories.emplace_back(neighbour->getCategory(i));
+    if (std::string(neighbour->getCategory(i)) != "working-space")
+      place.categories.emplace_back(neighbour->getCategory(i));
   return place;
 }
 
@@ -137,7 +139,8 @@ std::string reference_space(const OCIO::Config& config) {
   throw Error(ExitCode::config, "", "the config has no colour space that is its scene reference");
 }
 
-OCIO::ConfigRcPtr make_look_config(const std::vector<LookEntry>& looks, const std::vector<NightViewEntry>& nights,
+OCIO::ConfigRcPtr make_look_config(const std::vector<LookEntry>& looks,
+                                   const std::vector<NightViewEntry>& nights,
                                    const std::string& search_path) {
   OCIO::ConfigRcPtr config = make_base_config();
   config->setSearchPath(search_path.c_str());

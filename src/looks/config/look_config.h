@@ -32,11 +32,12 @@ struct NightViewEntry {
 
 /// Where in a config looks go, and what the colour spaces of theirs have as their neighbours have it.
 struct LookPlace {
-  std::string process_space;              ///< the scene-linear space that looks are made for
-  std::string reference_space;            ///< a space that is the scene reference itself
+  std::string process_space;    ///< the scene-linear space that looks are made for
+  std::string reference_space;  ///< a space that is the scene reference itself
   std::string encoding = "scene-linear";
   std::vector<std::string> categories = {};
-  bool equality_groups = false;           ///< each space names its own: one that is shared would pass for no conversion
+  bool equality_groups =
+      false;  ///< each space names its own: one that is shared would pass for no conversion
 };
 
 /// Around the config's `process_space`.

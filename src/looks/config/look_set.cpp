@@ -47,22 +47,24 @@ LookEntry chroma_entry(const AppearanceParameters& p) {
   chroma.strength = {.all = 1, .shift = 0, .luminance = 0, .chroma = 1};
   LookEntry entry;
   entry.name = fmt::format("Chroma {} nit (global weight matrix)", adaptation_text(p.adaptation));
-  entry.description = fmt::format(
-      "Loss of colour alone, global weight, exact: a matrix that keeps {:.4g} of the chroma",
-      chroma_factor(p.adaptation));
+  entry.description =
+      fmt::format("Loss of colour alone, global weight, exact: a matrix that keeps {:.4g} of the chroma",
+                  chroma_factor(p.adaptation));
   entry.matrix = look_matrix(chroma);
   entry.view = false;
   return entry;
 }
 
-/// The operator's light as dark as the eye sees it, without a shoulder: for those who keep a view of their own.
+/// The operator's light as dark as the eye sees it, without a shoulder: for those who keep a view of their
+/// own.
 LookEntry night_entry(const LookEntry& look, const AppearanceParameters& p) {
   const double stops = visibility_stops(p.adaptation, NightDisplayParameters().rule);
   LookEntry entry;
   entry.name = night_name(p.adaptation);
-  entry.description = fmt::format("{}, {:.2f} stops darker: what is just visible in the scene is just visible on a display. "
-                                  "Scene-linear: under a view of your own",
-                                  look.name, -stops);
+  entry.description = fmt::format(
+      "{}, {:.2f} stops darker: what is just visible in the scene is just visible on a display. "
+      "Scene-linear: under a view of your own",
+      look.name, -stops);
   entry.file = look.file;
   const double gain = std::exp2(stops);
   entry.gain = gain;
@@ -99,7 +101,8 @@ LookSet bake_set(const std::vector<LookSpec>& specs, const ColourConfig& config,
   return set;
 }
 
-void add_nights(LookSet& set, const std::vector<LookSpec>& specs, const ColourConfig& config, const std::string& version) {
+void add_nights(LookSet& set, const std::vector<LookSpec>& specs, const ColourConfig& config,
+                const std::string& version) {
   for (const DisplayKind& kind : display_kinds)
     for (LookSpec spec : specs) {
       if (spec.parameters.model != specs.front().parameters.model) continue;
@@ -110,13 +113,13 @@ void add_nights(LookSet& set, const std::vector<LookSpec>& specs, const ColourCo
       const BakedLook& look = set.night_luts.emplace_back(bake_look(spec, config, version));
       const std::string file = night_file_stem(spec) + ".clf";
       set.luts.push_back({file, xml_text(look.chain, ChainFormat::clf)});
-      set.nights.push_back({look.chain.name, fmt::format("Adapted to {} cd/m2, as dark as the eye sees it; value 1 stands for "
-                                                         "{:.4g} cd/m2. {} to the program's own: {}",
-                                                         adaptation_text(spec.parameters.adaptation),
-                                                         spec.parameters.white_luminance,
-                                                         kind.peak > display_white ? "Delta E ITP" : "CIEDE2000",
-                                                         error_text(look.error)),
-                            file, kind.gamut});
+      set.nights.push_back(
+          {look.chain.name,
+           fmt::format("Adapted to {} cd/m2, as dark as the eye sees it; value 1 stands for "
+                       "{:.4g} cd/m2. {} to the program's own: {}",
+                       adaptation_text(spec.parameters.adaptation), spec.parameters.white_luminance,
+                       kind.peak > display_white ? "Delta E ITP" : "CIEDE2000", error_text(look.error)),
+           file, kind.gamut});
     }
 }
 
@@ -125,9 +128,10 @@ std::string manifest_text(const LookSet& set, const std::string& version, const 
       fmt::format("# Made by scotopic {}: {}\n# Check with: sha256sum -c MANIFEST\n", version, command);
   for (std::size_t i = 0; i < set.luts.size(); ++i) {
     const BakedLook& look = i < set.looks.size() ? set.looks[i] : set.night_luts[i - set.looks.size()];
-    text += fmt::format("# {}: {} to the operator, {}\n", look.chain.name,
-                        look.spec.night && look.spec.night->peak > display_white ? "delta E ITP" : "CIEDE2000",
-                        error_text(look.error));
+    text +=
+        fmt::format("# {}: {} to the operator, {}\n", look.chain.name,
+                    look.spec.night && look.spec.night->peak > display_white ? "delta E ITP" : "CIEDE2000",
+                    error_text(look.error));
     text += sha256(set.luts[i].text) + "  " + set.luts[i].name + "\n";
   }
   return text;

@@ -30,15 +30,17 @@ struct LookSet {
 LookSet bake_set(const std::vector<LookSpec>& specs, const ColourConfig& config, const std::string& version,
                  bool context);
 
-/// Adds the night views of the own config for each adaptation of `specs`, for displays of BT.709 and P3 (100 cd/m2) and for
-/// Rec.2100 (1000 cd/m2).
-void add_nights(LookSet& set, const std::vector<LookSpec>& specs, const ColourConfig& config, const std::string& version);
+/// Adds the night views of the own config for each adaptation of `specs`, for displays of BT.709 and P3 (100
+/// cd/m2) and for Rec.2100 (1000 cd/m2).
+void add_nights(LookSet& set, const std::vector<LookSpec>& specs, const ColourConfig& config,
+                const std::string& version);
 
 /// luts/MANIFEST: what `sha256sum -c` checks; a comment before each file states its error.
 std::string manifest_text(const LookSet& set, const std::string& version, const std::string& command);
 
-/// Of the shipped config, whose LUTs are beside its folder: there, or beside the config itself. (OpenColorIO archives no
-/// paths that lead out of a config's folder: a config with its LUTs in a folder of its own names that alone.)
+/// Of the shipped config, whose LUTs are beside its folder: there, or beside the config itself. (OpenColorIO
+/// archives no paths that lead out of a config's folder: a config with its LUTs in a folder of its own names
+/// that alone.)
 inline constexpr const char* lut_search_path = "luts:../luts";
 
 /// The own config with the set's looks and night views, its LUTs on `search_path`.

@@ -43,8 +43,10 @@ double level_density(double x, std::optional<double> peak) {
     // By trial, for the least 99 % of what is shown at 0.1 to 10 cd/m2.
     constexpr double around = 5, height = 3, over = 9, night_dark = -6, night_root = 3;
     const double from_peak = (x - *peak) / around;
-    const double even = 1 / (std::exp2((night_dark - x) / night_root) + 1 + std::exp2((x - *peak - over) / bright_root));
-    return even * (1 + bend_height * std::exp(-off * off / 2) + height * std::exp(-from_peak * from_peak / 2)) +
+    const double even =
+        1 / (std::exp2((night_dark - x) / night_root) + 1 + std::exp2((x - *peak - over) / bright_root));
+    return even *
+               (1 + bend_height * std::exp(-off * off / 2) + height * std::exp(-from_peak * from_peak / 2)) +
            floor * std::min(1.0, root) * std::exp2(-std::max(0.0, x - *peak - over));
   }
   const double even = 1 / (1 / root + 1 + std::exp2((x - bright) / bright_root));

@@ -16,12 +16,12 @@ namespace scotopic {
 /// is the identity; the bump lies where strong blues become photopic. Its constants are the result of a
 /// search for the least CIEDE2000 at 0.001 to 1 cd/m2.
 ///
-/// With the display stage behind the operator, nodes lie where light reaches the display's peak and bends: a Gaussian of
-/// 5 stops around it, and few from 9 stops above it on.
+/// With the display stage behind the operator, nodes lie where light reaches the display's peak and bends: a
+/// Gaussian of 5 stops around it, and few from 9 stops above it on.
 class LevelAxis {
  public:
-  /// `highest`: log2 of the brightest level; at least the lowest, -80, which stands for black. `peak`: log2 of the level of
-  /// the display's peak, where there is a display.
+  /// `highest`: log2 of the brightest level; at least the lowest, -80, which stands for black. `peak`: log2
+  /// of the level of the display's peak, where there is a display.
   explicit LevelAxis(double highest, std::optional<double> peak = std::nullopt);
 
   /// log2 of the level that stands for black.

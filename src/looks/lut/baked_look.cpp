@@ -24,10 +24,11 @@ namespace {
 constexpr std::string_view max_marker = "; max ";
 
 std::string stated_of_night(const BakeError& e, const LookSpec& spec) {
-  return fmt::format("Error against the operator and the display stage, {} of what is shown, {} colours of the working "
-                     "gamut, 2^-20 to 2^8 of white: mean {}; 99 % {}{}{}",
-                     spec.night->peak > display_white ? "delta E ITP" : "CIEDE2000", e.samples, rounded_text(e.mean, 2),
-                     rounded_text(e.p99, 2), max_marker, rounded_text(e.max, 2));
+  return fmt::format(
+      "Error against the operator and the display stage, {} of what is shown, {} colours of the working "
+      "gamut, 2^-20 to 2^8 of white: mean {}; 99 % {}{}{}",
+      spec.night->peak > display_white ? "delta E ITP" : "CIEDE2000", e.samples, rounded_text(e.mean, 2),
+      rounded_text(e.p99, 2), max_marker, rounded_text(e.max, 2));
 }
 
 std::string stated(const BakeError& e, const LookSpec& spec) {
@@ -35,7 +36,8 @@ std::string stated(const BakeError& e, const LookSpec& spec) {
   return fmt::format(
       "Error against the operator, CIEDE2000 with each pixel exposed to Y = 0.184, {} colours {}: mean {}; "
       "99 % {}{}{}",
-      e.samples, "of the working gamut, 2^-20 to 2^8 of white", rounded_text(e.mean, 2), rounded_text(e.p99, 2), max_marker, rounded_text(e.max, 2));
+      e.samples, "of the working gamut, 2^-20 to 2^8 of white", rounded_text(e.mean, 2),
+      rounded_text(e.p99, 2), max_marker, rounded_text(e.max, 2));
 }
 
 /// What comes out of it.
@@ -48,8 +50,10 @@ std::string output_of(const LookSpec& spec) {
 
 std::string id_of(const LookSpec& spec) {
   if (!spec.encoded)
-    return fmt::format("scotopic-{}-{}", spec.night ? night_file_stem(spec) : look_file_stem(spec.parameters), spec.edge);
-  return fmt::format("scotopic-{}{}-{}-encoded", spec.night ? "night-" : "", look_file_stem(spec.parameters), spec.edge);
+    return fmt::format("scotopic-{}-{}", spec.night ? night_file_stem(spec) : look_file_stem(spec.parameters),
+                       spec.edge);
+  return fmt::format("scotopic-{}{}-{}-encoded", spec.night ? "night-" : "", look_file_stem(spec.parameters),
+                     spec.edge);
 }
 
 /// What the file says of itself.
@@ -60,13 +64,16 @@ void describe(BakedLook& look, const std::string& version) {
   chain.name = spec.night ? night_name(p.adaptation) : look_name(p);
   chain.id = id_of(spec);
   chain.input = fmt::format("{}, 1 stands for {} cd/m2", spec.space, rounded_text(p.white_luminance, 6));
-  if (spec.encoded) chain.input = fmt::format("codes of {}, light 1 stands for {} cd/m2", spec.space, rounded_text(p.white_luminance, 6));
+  if (spec.encoded)
+    chain.input = fmt::format("codes of {}, light 1 stands for {} cd/m2", spec.space,
+                              rounded_text(p.white_luminance, 6));
   chain.output = output_of(spec);
   chain.descriptions = {
       fmt::format("What an eye adapted to {} cd/m2 sees, by the scotopic appearance operator {}, model {}",
                   adaptation_text(p.adaptation), version, name_of(p.model)),
       "Forward only: the operator has no inverse. Alpha is not touched"};
-  for (const std::string& line : look.cube ? error_lines(*look.cube, spec) : std::vector{stated(look.error, spec)})
+  for (const std::string& line :
+       look.cube ? error_lines(*look.cube, spec) : std::vector{stated(look.error, spec)})
     chain.descriptions.push_back(line);
   chain.descriptions.push_back(spec_text(spec));
   chain.info = {{"Application", "scotopic"}, {"Version", version}};

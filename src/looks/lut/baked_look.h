@@ -25,8 +25,8 @@ struct BakedLook {
 };
 
 /// `version`: the program's. `config` holds spec.space where spec.encoded.
-/// A linear look of La >= 5 cd/m2 is an identity without a LUT. An encoded one of edge 0 gets 33 nodes a side, or 65 where
-/// wants_larger().
+/// A linear look of La >= 5 cd/m2 is an identity without a LUT. An encoded one of edge 0 gets 33 nodes a
+/// side, or 65 where wants_larger().
 BakedLook bake_look(const LookSpec& spec, const ColourConfig& config, const std::string& version);
 
 /// CIE XYZ (D65) from values of a space, where these are proportional to light; else nullopt.

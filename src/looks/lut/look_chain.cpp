@@ -144,8 +144,8 @@ MatrixStep normalised_differences(const Axes& axes) {
 }
 
 /// The chain around a core; `gain`: of what comes out.
-Chain chain_of(const AppearanceParameters& p, const Axes& axes, std::size_t edge, const NightDisplayParameters* display,
-               double gain) {
+Chain chain_of(const AppearanceParameters& p, const Axes& axes, std::size_t edge,
+               const NightDisplayParameters* display, double gain) {
   const Matrix3<double> abc_from_rgb = p.white_luminance * (LookCoordinates::from_xyz() * p.xyz_from_rgb);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   // log2 a = log2 a/(a+b) + log2 (a+b)/(a+b+c) + log2 (a+b+c), and so on.
@@ -170,7 +170,9 @@ Chain chain_of(const AppearanceParameters& p, const Axes& axes, std::size_t edge
 
 }  // namespace
 
-Chain look_chain(const AppearanceParameters& p, std::size_t edge) { return chain_of(p, Axes(p), edge, nullptr, 1); }
+Chain look_chain(const AppearanceParameters& p, std::size_t edge) {
+  return chain_of(p, Axes(p), edge, nullptr, 1);
+}
 
 NightDisplayParameters of_scene(const AppearanceParameters& p, NightDisplayParameters display) noexcept {
   display.adaptation = p.adaptation;

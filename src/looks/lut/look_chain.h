@@ -24,13 +24,15 @@ inline constexpr double look_limit = 65504;
 /// that AP1 does not hold clamped to its border, continuously. `edge` is 2^k + 1, 17 to 129.
 Chain look_chain(const AppearanceParameters& parameters, std::size_t edge);
 
-/// The same with the display stage behind it: what comes out is linear light of the display in the RGB that goes in, 1 =
-/// display_white. Its nodes lie around the display's peak. `display` gives peak, primaries and visibility; adaptation,
-/// unit and primaries of the RGB are those of `parameters`.
-Chain night_chain(const AppearanceParameters& parameters, const NightDisplayParameters& display, std::size_t edge);
+/// The same with the display stage behind it: what comes out is linear light of the display in the RGB that
+/// goes in, 1 = display_white. Its nodes lie around the display's peak. `display` gives peak, primaries and
+/// visibility; adaptation, unit and primaries of the RGB are those of `parameters`.
+Chain night_chain(const AppearanceParameters& parameters, const NightDisplayParameters& display,
+                  std::size_t edge);
 
 /// `display` for the scene of `parameters`.
-NightDisplayParameters of_scene(const AppearanceParameters& parameters, NightDisplayParameters display) noexcept;
+NightDisplayParameters of_scene(const AppearanceParameters& parameters,
+                                NightDisplayParameters display) noexcept;
 
 /// cd/m2 that 1 of a display's light stands for, as OpenColorIO's displays have it.
 inline constexpr double display_white = 100;

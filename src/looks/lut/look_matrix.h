@@ -7,9 +7,9 @@
 
 namespace scotopic {
 
-/// The whole operator as a matrix on the RGB it is given: the identity where the plan (scene/plan.h) has nothing to do;
-/// loss of colour where that is all it has to do, and the weight is global, so that no pixel differs from the next.
-/// nullopt: pixels do. To the last digit of double.
+/// The whole operator as a matrix on the RGB it is given: the identity where the plan (scene/plan.h) has
+/// nothing to do; loss of colour where that is all it has to do, and the weight is global, so that no pixel
+/// differs from the next. nullopt: pixels do. To the last digit of double.
 std::optional<Matrix3<double>> look_matrix(const AppearanceParameters& parameters);
 
 }  // namespace scotopic

@@ -121,9 +121,10 @@ std::string spec_text(const LookSpec& spec) {
       spec.encoded ? 1 : 0, spec.space, spec.gamut, matrix_text(p.xyz_from_rgb));
   if (p.xyz_from_gamut) text += "; xyz_from_gamut=" + matrix_text(*p.xyz_from_gamut);
   if (const auto& d = spec.night)
-    text += fmt::format("; display={}; peak={}; viewing={}; visibility={}; strength_display={}; xyz_from_display={}",
-                        spec.display, number_text(d->peak), number_text(d->viewing), word(rules, d->rule),
-                        number_text(d->strength), matrix_text(d->xyz_from_display));
+    text += fmt::format(
+        "; display={}; peak={}; viewing={}; visibility={}; strength_display={}; xyz_from_display={}",
+        spec.display, number_text(d->peak), number_text(d->viewing), word(rules, d->rule),
+        number_text(d->strength), matrix_text(d->xyz_from_display));
   return text;
 }
 

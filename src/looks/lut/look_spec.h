@@ -18,7 +18,7 @@ struct LookSpec {
   bool encoded = false;           ///< one 3D LUT over encoded RGB 0..1
   std::size_t edge = 33;
   std::optional<NightDisplayParameters> night = std::nullopt;  ///< the display stage behind it
-  std::string display;  ///< its primaries, as --gamut says such
+  std::string display;                                         ///< its primaries, as --gamut says such
 };
 
 /// "filament2021", "kirk2011", "safko2019".

@@ -45,8 +45,9 @@ void measure(Inspected& it, const OCIO::ConstCPUProcessorRcPtr& processor, const
   it.odd = odd_pixels(processor);
   const AppearanceParameters& p = it.spec->parameters;
   if (it.spec->encoded)
-    it.cube = measure_cube(*it.spec, config,
-                           {lut_processor(it.file, OCIO::INTERP_TETRAHEDRAL), lut_processor(it.file, OCIO::INTERP_LINEAR)});
+    it.cube = measure_cube(
+        *it.spec, config,
+        {lut_processor(it.file, OCIO::INTERP_TETRAHEDRAL), lut_processor(it.file, OCIO::INTERP_LINEAR)});
   it.error = it.cube          ? it.cube->rec709.by_reading[0]
              : it.spec->night ? measure_night(p, *it.spec->night, processor, p.xyz_from_rgb)
                               : measure_bake(p, processor, p.xyz_from_rgb);
@@ -167,7 +168,8 @@ std::vector<Inspected> inspect_config(const ColourConfig& config, const std::str
     if (!only.empty() || it.spec || !it.problems.empty()) all.push_back(std::move(it));
   }
   for (int i = 0; only.empty() && i < config.ocio()->getNumViewTransforms(); ++i)
-    if (auto it = inspect_view(config, config.ocio()->getViewTransformNameByIndex(i))) all.push_back(std::move(*it));
+    if (auto it = inspect_view(config, config.ocio()->getViewTransformNameByIndex(i)))
+      all.push_back(std::move(*it));
   if (!only.empty() && all.empty()) (void)look_processor(config, only);
   return all;
 }

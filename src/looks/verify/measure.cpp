@@ -58,7 +58,8 @@ Colours stop_colours(std::size_t count, const Matrix3<double>& xyz_from_gamut,
     if (i % 4 == 2)
       for (double& x : c) x = x * x * x;
     if (i % 4 == 3) c[i / 4 % 3] = 0;
-    const double level = std::exp2(range.low + (range.high - range.low) * u) / std::max({c[0], c[1], c[2], 1e-9});
+    const double level =
+        std::exp2(range.low + (range.high - range.low) * u) / std::max({c[0], c[1], c[2], 1e-9});
     Vec3<double> rgb = {level * c[0], level * c[1], level * c[2]};
     if (!same) rgb = rgb_from_gamut * rgb;
     colours.r.push_back(static_cast<float>(rgb[0]));
@@ -71,7 +72,9 @@ Colours stop_colours(std::size_t count, const Matrix3<double>& xyz_from_gamut,
 Comparison::Comparison(const Matrix3<double>& xyz_from_rgb) : Comparison(xyz_from_rgb, exposed_difference) {}
 
 Comparison::Comparison(const Matrix3<double>& xyz_from_rgb, Difference difference)
-    : xyz_from_rgb_(xyz_from_rgb), difference_(difference), ap1_from_rgb_(inverse(gamut_xyz_matrix("ap1").value()) * xyz_from_rgb) {}
+    : xyz_from_rgb_(xyz_from_rgb),
+      difference_(difference),
+      ap1_from_rgb_(inverse(gamut_xyz_matrix("ap1").value()) * xyz_from_rgb) {}
 
 void Comparison::add(const Colours& in, const Colours& expected, const Colours& got) {
   const auto at = [](const Colours& c, std::size_t i) { return Vec3<double>{c.r[i], c.g[i], c.b[i]}; };
@@ -114,10 +117,12 @@ Colours exact(const AppearanceParameters& parameters, Colours colours) {
   return colours;
 }
 
-Colours exact_night(const AppearanceParameters& parameters, const NightDisplayParameters& display, Colours colours) {
+Colours exact_night(const AppearanceParameters& parameters, const NightDisplayParameters& display,
+                    Colours colours) {
   colours = exact(parameters, std::move(colours));
   PixelRows rows;
-  rows.r = colours.r.data(), rows.g = colours.g.data(), rows.b = colours.b.data(), rows.count = colours.size();
+  rows.r = colours.r.data(), rows.g = colours.g.data(), rows.b = colours.b.data(),
+  rows.count = colours.size();
   DisplayBatch(of_scene(parameters, display), Precision::dual).apply(rows);
   return colours;
 }

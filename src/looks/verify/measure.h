@@ -80,14 +80,17 @@ BakeError measure_bake(const AppearanceParameters& parameters,
                        const OCIO_NAMESPACE::ConstCPUProcessorRcPtr& processor,
                        const Matrix3<double>& xyz_from_gamut, std::size_t count = 100000);
 
-/// The operator and the display stage behind it; linear light of the display in the RGB that goes in, 1 = its peak.
-Colours exact_night(const AppearanceParameters& parameters, const NightDisplayParameters& display, Colours colours);
+/// The operator and the display stage behind it; linear light of the display in the RGB that goes in, 1 = its
+/// peak.
+Colours exact_night(const AppearanceParameters& parameters, const NightDisplayParameters& display,
+                    Colours colours);
 
-/// exact_night() against a processor whose 1 is display_white, on the display-referred light itself: CIEDE2000 of what a
-/// display of 100 cd/m2 shows; above that peak, 720 times the distance in ICtCp (ITU-R BT.2124).
+/// exact_night() against a processor whose 1 is display_white, on the display-referred light itself:
+/// CIEDE2000 of what a display of 100 cd/m2 shows; above that peak, 720 times the distance in ICtCp (ITU-R
+/// BT.2124).
 BakeError measure_night(const AppearanceParameters& parameters, const NightDisplayParameters& display,
-                        const OCIO_NAMESPACE::ConstCPUProcessorRcPtr& processor, const Matrix3<double>& xyz_from_gamut,
-                        std::size_t count = 100000);
+                        const OCIO_NAMESPACE::ConstCPUProcessorRcPtr& processor,
+                        const Matrix3<double>& xyz_from_gamut, std::size_t count = 100000);
 
 /// Pixels with NaN, infinities, negatives and denormals in every place: how many components come out not
 /// finite, and whether alpha kept its bits.

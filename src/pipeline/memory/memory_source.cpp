@@ -56,8 +56,8 @@ void MemorySource::read(std::size_t, int y0, int rows, Band& band) {
     band.rows = rows;
     band.width = pixels_.width;
     for (int c = 0; c < pixels_.channels; ++c)
-      band.channels.push_back({pixels_.at(0, first, c), pixels_.pixel_stride, pixels_.row_stride,
-                               type_in_bands(pixels_.type)});
+      band.channels.push_back(
+          {pixels_.at(0, first, c), pixels_.pixel_stride, pixels_.row_stride, type_in_bands(pixels_.type)});
     return;
   }
   band.allocate_planar(picture.channels, y0, rows, pixels_.width);

@@ -65,9 +65,9 @@ ImageSettings settings_for(const MemoryJob& job, const ImageSettings& settings) 
 
 void check(const MemoryJob& job) {
   const MemoryPixels &in = job.in, &out = job.out;
-  const bool fits = in.channels == out.channels && in.type == out.type &&
-                    job.window.width() == out.width && job.window.height() == out.height &&
-                    job.header.data.width() == in.width && job.header.data.height() == in.height;
+  const bool fits = in.channels == out.channels && in.type == out.type && job.window.width() == out.width &&
+                    job.window.height() == out.height && job.header.data.width() == in.width &&
+                    job.header.data.height() == in.height;
   if (!fits) throw Error(ExitCode::internal, "", "input and output in memory do not fit");
   if (!same_place(in, out) && overlap(in, out))
     throw Error(ExitCode::usage, "", "the output overlaps the input without being the same");

@@ -15,7 +15,7 @@ struct MemoryJob {
   /// Takes the result: as many channels, and of the same type. May be `in` itself, but may not overlap it in
   /// any other way.
   MemoryPixels out;
-  Window window;  ///< where `out` lies; of its pixels those inside header.data are written
+  Window window;             ///< where `out` lies; of its pixels those inside header.data are written
   std::optional<int> frame;  ///< its number in a sequence; nullopt: a still
   std::optional<TrackedAdaptation> adaptation;  ///< in place of the settings'
   Progress progress;

@@ -140,7 +140,8 @@ bool LightWriter::write(LightRow& light, const NativeRow (&out)[3], const Native
 
 void apply_matrices(const LightMatrices& matrices, bool receptors, LightRow& light) {
   const auto operable = [](float a, float b, float c) {
-    return std::max({std::abs(a), std::abs(b), std::abs(c)}) <= static_cast<float>(operable_limit) && a == a && b == b && c == c;
+    return std::max({std::abs(a), std::abs(b), std::abs(c)}) <= static_cast<float>(operable_limit) &&
+           a == a && b == b && c == c;
   };
   const auto times = [](const Matrix3<double>& m, float& a, float& b, float& c) {
     const Vec3<double> out = m * Vec3<double>{a, b, c};

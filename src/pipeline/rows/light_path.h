@@ -40,7 +40,8 @@ struct LightRow {
   std::vector<std::uint8_t> changed;  ///< where frame stages have changed light; empty: there were none
 };
 
-/// Light as matrices have it, and light.changed says which pixels; those that are not finite, or beyond 2^120, pass.
+/// Light as matrices have it, and light.changed says which pixels; those that are not finite, or beyond
+/// 2^120, pass.
 void apply_matrices(const LightMatrices& matrices, bool receptors, LightRow& light);
 
 /// Divides colour by alpha where that is a number above 0.
@@ -85,8 +86,8 @@ struct LightWriter {
   /// agree. True only if nothing else changes the values: same space, gain 1, alpha as it was.
   bool keep_untouched = false;
 
-  /// Changes `light` to what is written; false: it was not needed, all of the file's bytes were kept. `out`: the channels
-  /// R, G, B of one row. `source`: the channels they were read from.
+  /// Changes `light` to what is written; false: it was not needed, all of the file's bytes were kept. `out`:
+  /// the channels R, G, B of one row. `source`: the channels they were read from.
   bool write(LightRow& light, const NativeRow (&out)[3], const NativeRow (*source)[3]) const;
 };
 

@@ -168,8 +168,8 @@ void PictureRun::allocate(const Band& in, Band& out, bool interleaved) const {
 
 // Nothing is called for, and nothing else changes values: the file's own bytes go through.
 bool PictureRun::copies() const {
-  const bool nothing =
-      !stages_.evaluator && stages_.after.empty() && !frame_ && !stages_.light && stages_.non_finite != NonFinite::clean;
+  const bool nothing = !stages_.evaluator && stages_.after.empty() && !frame_ && !stages_.light &&
+                       stages_.non_finite != NonFinite::clean;
   return nothing && writer_.keep_untouched && !reader_.receptors();
 }
 

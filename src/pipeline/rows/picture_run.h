@@ -43,7 +43,7 @@ class PictureRun {
   struct Room {
     Room(std::size_t width, const ImageStages& stages);
     LightRow light;
-    LightRow scene;  ///< as the pixel stages saw it; only for stages that ask
+    LightRow scene;                                  ///< as the pixel stages saw it; only for stages that ask
     std::vector<std::unique_ptr<RowMemory>> memory;  ///< of each of the stages after the filters
   };
 
@@ -70,7 +70,7 @@ class PictureRun {
   const LightPlanes* frame_ = nullptr;
   LightReader reader_;
   LightWriter writer_;
-  bool whole_rows_ = false;  // for stages after the filters that look at the scene
+  bool whole_rows_ = false;          // for stages after the filters that look at the scene
   std::vector<std::size_t> others_;  // channel of the source for each output channel after R, G, B
   mutable NonFiniteTally tally_;
 };

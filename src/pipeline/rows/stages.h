@@ -42,10 +42,10 @@ struct AdaptationTrace {
 struct StageScene {
   AppearanceParameters parameters;
   AngularResolution resolution;
-  bool wraps = false;  ///< a panorama: its last column lies beside its first
-  bool sequence = false;                   ///< a frame of one
-  bool tracked = false;                    ///< whose adaptation changes from frame to frame
-  Precision precision = Precision::single; ///< of the pixel stages
+  bool wraps = false;                       ///< a panorama: its last column lies beside its first
+  bool sequence = false;                    ///< a frame of one
+  bool tracked = false;                     ///< whose adaptation changes from frame to frame
+  Precision precision = Precision::single;  ///< of the pixel stages
   /// Of an eye that is not adapted yet; nullopt: it is.
   std::optional<AdaptationTrace> adapting;
 };
@@ -95,7 +95,8 @@ struct FrameOutcome {
 /// place. Immutable: any number of pictures at once. Smaller resolutions of a picture do not go through it.
 class FrameStage : public SceneStage {
  public:
-  /// Without a pixel, when adaptation and unit are not known yet: what the scene calls for is for run() to say.
+  /// Without a pixel, when adaptation and unit are not known yet: what the scene calls for is for run() to
+  /// say.
   EffectDecision decide(const StageScene& scene) const override = 0;
   /// What run() allocates at most, the planes not counted.
   virtual std::int64_t bytes(const FrameSize& size, const StageScene& scene) const = 0;
@@ -138,7 +139,8 @@ class RowStage {
 struct LightMatrices {
   Matrix3<double> rgb = identity3<double>();
   Matrix3<double> lms = identity3<double>();
-  Vec3<double> luminance = {0.2126, 0.7152, 0.0722};  ///< of RGB; what leaves the gamut fades at constant luminance
+  Vec3<double> luminance = {0.2126, 0.7152,
+                            0.0722};  ///< of RGB; what leaves the gamut fades at constant luminance
 };
 
 /// A stage that is a matrix on the light that the receptors get. Metering does not see it.

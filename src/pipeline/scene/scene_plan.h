@@ -9,8 +9,8 @@
 
 namespace scotopic {
 
-/// With --effects auto what the scene calls for (statistics may be nullptr); else all that is asked for. In the
-/// table's order; `decided`: what stages other than the pixel stages have decided for themselves.
+/// With --effects auto what the scene calls for (statistics may be nullptr); else all that is asked for. In
+/// the table's order; `decided`: what stages other than the pixel stages have decided for themselves.
 ScenePlan plan_of(const OperatorChoice& choice, const AppearanceParameters& scene,
                   const SceneStatistics* statistics, const std::vector<EffectDecision>& decided);
 

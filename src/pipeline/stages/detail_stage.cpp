@@ -45,9 +45,10 @@ void decide_contrast(const StageScene& scene, double peak, EffectDecision& d) {
   d.reason = need.frequency == 0
                  ? fmt::format("the picture holds {:.3g} cycles/degree: no band of 2 or more",
                                scene.resolution.pixels_per_degree / 2)
-                 : fmt::format("at {:.3g} cycles/degree the least contrast seen is {:.3g} log10 units above the "
-                               "display's, {} {:g}",
-                               need.frequency, need.excess, need.needed ? "not below" : "below", d.threshold);
+                 : fmt::format(
+                       "at {:.3g} cycles/degree the least contrast seen is {:.3g} log10 units above the "
+                       "display's, {} {:g}",
+                       need.frequency, need.excess, need.needed ? "not below" : "below", d.threshold);
 }
 
 void decide_acuity(const StageScene& scene, EffectDecision& d) {
@@ -55,17 +56,16 @@ void decide_acuity(const StageScene& scene, EffectDecision& d) {
   d.number = scene.resolution.pixels_per_degree / 2;
   d.unit = "cycles/degree";
   d.needed = d.number > d.threshold;
-  d.reason = d.needed
-                 ? fmt::format("the picture holds {:.3g} cycles/degree, the eye resolves {:.3g}", d.number,
-                               d.threshold)
-                 : fmt::format("the picture holds {:.3g} cycles/degree, all of which the eye resolves ({:.3g})",
-                               d.number, d.threshold);
+  d.reason =
+      d.needed ? fmt::format("the picture holds {:.3g} cycles/degree, the eye resolves {:.3g}", d.number,
+                             d.threshold)
+               : fmt::format("the picture holds {:.3g} cycles/degree, all of which the eye resolves ({:.3g})",
+                             d.number, d.threshold);
 }
 
 EffectDecision DetailStage::decide(const StageScene& scene) const {
   const bool off = filter_ == DetailFilter::none || !(strength(scene) > 0);
-  EffectDecision d =
-      asked_at_resolution(values_, detail_description, values_.given("detail") && !off, scene);
+  EffectDecision d = asked_at_resolution(values_, detail_description, values_.given("detail") && !off, scene);
   if (off) d.asked = false;
   if (!scene.resolution.known) return d;
   if (filter_ == DetailFilter::contrast)

@@ -97,7 +97,8 @@ std::vector<float> luminances(const FramePlanes& light, const AppearanceParamete
   for (int row = 0; row < light.height; ++row)
     for (int x = 0; x < light.width; ++x) {
       const std::ptrdiff_t at = row * light.stride + x;
-      const double sum = y[0] * double{light.rgb[0][at]} + y[1] * double{light.rgb[1][at]} + y[2] * double{light.rgb[2][at]};
+      const double sum =
+          y[0] * double{light.rgb[0][at]} + y[1] * double{light.rgb[1][at]} + y[2] * double{light.rgb[2][at]};
       out.push_back(static_cast<float>(sum * scene.white_luminance));
     }
   return out;
@@ -115,8 +116,8 @@ std::string veil_text(std::vector<float>& before, const std::vector<float>& afte
   }
   const auto middle = before.begin() + static_cast<std::ptrdiff_t>(before.size() / 2);
   std::nth_element(before.begin(), middle, before.end());
-  return fmt::format("the veil is at most {:.3g} times what is under it, {:.3g} cd/m2 in the median pixel", largest,
-                     *middle);
+  return fmt::format("the veil is at most {:.3g} times what is under it, {:.3g} cd/m2 in the median pixel",
+                     largest, *middle);
 }
 
 FrameOutcome GlareStage::run(const FramePlanes& light, const StageScene& scene,
@@ -131,14 +132,17 @@ FrameOutcome GlareStage::run(const FramePlanes& light, const StageScene& scene,
   const GlareFilter glare = filter(light.width, light.height, t, scene);
   const Vec3<double>& y = scene.parameters.xyz_from_rgb[1];
   const GlareNeed need = glare.need(picture, {y[0], y[1], y[2]}, parallel_for);
-  std::vector<float> before = measure_ && need.called_for ? luminances(light, scene.parameters) : std::vector<float>();
+  std::vector<float> before =
+      measure_ && need.called_for ? luminances(light, scene.parameters) : std::vector<float>();
   if (need.called_for) glare.apply(picture, parallel_for);
   FrameOutcome out = {need.called_for, need.reason, static_cast<double>(need.above)};
   if (!before.empty()) out.reason = veil_text(before, luminances(light, scene.parameters), shown);
   if (measure_ && rule_ == GlareRule::above)
     out.reason += fmt::format("; {} pixels are above {:.3g} cd/m2", need.above, shown);
-  if (measure_) out.reason += fmt::format("; this eye scatters {:.3g} times what the default eye does, 3 degrees from a lamp",
-                                          GlareFunction(eye()).psf(3) / GlareFunction(GlareEye()).psf(3));
+  if (measure_)
+    out.reason +=
+        fmt::format("; this eye scatters {:.3g} times what the default eye does, 3 degrees from a lamp",
+                    GlareFunction(eye()).psf(3) / GlareFunction(GlareEye()).psf(3));
   return out;
 }
 

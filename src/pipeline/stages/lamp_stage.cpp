@@ -25,8 +25,8 @@ class LampStage : public LightStage {
     d.number = degree(scene);
     d.needed = d.asked = adapt_to_lamp(*lamp_, d.number).rows != identity3<double>().rows;
     d.share = d.needed ? 1 : 0;
-    d.reason = d.needed ? fmt::format("the eye gets used to {:.3g} of the lamp's colour (x {:.4f}, y {:.4f})", d.number,
-                                      (*lamp_)[0] / sum(), (*lamp_)[1] / sum())
+    d.reason = d.needed ? fmt::format("the eye gets used to {:.3g} of the lamp's colour (x {:.4f}, y {:.4f})",
+                                      d.number, (*lamp_)[0] / sum(), (*lamp_)[1] / sum())
                         : "the lamp is D65, or nothing of it is got used to";
     return d;
   }

@@ -22,7 +22,8 @@ RodNoiseParameters parameters_in(const StageValues& values, const StageScene& sc
   p.strength = values.number("strength-noise") * scene.parameters.strength.all;
   if (scene.adapting) {
     p.rod_adaptation = scene.adapting->thresholds.rod_luminance;
-    p.bleach_light = std::max(0.0, scene.adapting->thresholds.rod_luminance - scene.adapting->state.rod_neural);
+    p.bleach_light =
+        std::max(0.0, scene.adapting->thresholds.rod_luminance - scene.adapting->state.rod_neural);
     p.exposure = scene.adapting->thresholds.exposure;
   }
   return p;

@@ -70,8 +70,7 @@ void StageValues::set_wish(std::string_view stage, EffectWish wish) {
 void StageValues::set_effects(const std::string& list) {
   const bool all = list == "all" || list == "auto";
   for (std::size_t i = 0; i < table_.size(); ++i)
-    if (table_[i].description->switched_by.empty())
-      wishes_[i] = all ? EffectWish::if_known : EffectWish::no;
+    if (table_[i].description->switched_by.empty()) wishes_[i] = all ? EffectWish::if_known : EffectWish::no;
   if (all || list == "none") return;
   for (std::size_t at = 0; at <= list.size();) {
     const std::size_t comma = std::min(list.find(',', at), list.size());

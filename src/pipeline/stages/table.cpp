@@ -31,14 +31,10 @@ void set_chroma(const StageValues& values, AppearanceParameters& p) {
 }
 
 constexpr StageEntry table[] = {
-    {&glare_description, nullptr, add_glare},
-    {&lamp_description, nullptr, add_lamp},
-    {&shift_description, set_shift, nullptr},
-    {&luminance_description, set_luminance, nullptr},
-    {&chroma_description, set_chroma, nullptr},
-    {&time_description, nullptr, add_time},
-    {&detail_description, nullptr, add_detail},
-    {&noise_description, nullptr, add_noise},
+    {&glare_description, nullptr, add_glare},   {&lamp_description, nullptr, add_lamp},
+    {&shift_description, set_shift, nullptr},   {&luminance_description, set_luminance, nullptr},
+    {&chroma_description, set_chroma, nullptr}, {&time_description, nullptr, add_time},
+    {&detail_description, nullptr, add_detail}, {&noise_description, nullptr, add_noise},
     {&display_description, nullptr, nullptr},
 };
 

@@ -41,10 +41,10 @@ class TimeStage : public PointStage {
     d.needed = adaptation_is_called_for(t, scene.parameters.adaptation);
     d.number = std::abs(t.exposure - 1);
     d.share = d.needed ? 1 : 0;
-    d.reason = fmt::format("rods are as in {:.3g} cd/m2, cones in {:.3g}, what is seen is {:.3g} of what an "
-                           "adapted eye sees{}",
-                           t.rod_luminance, t.cone_luminance, t.exposure,
-                           d.needed ? "" : ": within 1 %");
+    d.reason = fmt::format(
+        "rods are as in {:.3g} cd/m2, cones in {:.3g}, what is seen is {:.3g} of what an "
+        "adapted eye sees{}",
+        t.rod_luminance, t.cone_luminance, t.exposure, d.needed ? "" : ": within 1 %");
     return d;
   }
 

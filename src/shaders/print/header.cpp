@@ -9,9 +9,11 @@
 namespace scotopic::shaders {
 namespace {
 
-/// A name from a config, for a comment: it may hold a line's end, or letters that hosts' compilers do not read.
+/// A name from a config, for a comment: it may hold a line's end, or letters that hosts' compilers do not
+/// read.
 std::string plain(std::string name) {
-  std::replace_if(name.begin(), name.end(), [](char c) { return c < ' ' || c > '~' || c == '\\'; }, '?');
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c < ' ' || c > '~' || c == '\\'; }, '?');
   return name;
 }
 

@@ -99,7 +99,8 @@ int cell_of(double sigma, const Tuning& tuning) {
 /// Cells are no gain where they hold a pixel or two, nor where a block is large against sigma.
 AcuityEngine engine_of(const AcuityParameters& p, const Tuning& tuning) {
   if (p.engine != AcuityEngine::automatic) return p.engine;
-  return p.pixel_aspect != 1.0 || p.sigma < 3.5 || cell_of(p.sigma, tuning) < 2 ? AcuityEngine::window : AcuityEngine::cells;
+  return p.pixel_aspect != 1.0 || p.sigma < 3.5 || cell_of(p.sigma, tuning) < 2 ? AcuityEngine::window
+                                                                                : AcuityEngine::cells;
 }
 
 Constants constants_of(const AcuityParameters& p, const Tuning& tuning, AcuityEngine engine) {

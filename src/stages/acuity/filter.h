@@ -26,8 +26,8 @@ enum class AcuityQuality { draft, normal, fine };
 struct AcuityParameters {
   /// Standard deviation in space, pixels; >= 0 and finite. 0 (or too small to reach a neighbour): identity.
   double sigma = 0.0;
-  /// Width over height of a pixel, 0.1 to 10: sigma counts pixels across, sigma times this pixels down. The cells engine
-  /// takes pixels for square: other than 1 only `window` will do, and automatic is that.
+  /// Width over height of a pixel, 0.1 to 10: sigma counts pixels across, sigma times this pixels down. The
+  /// cells engine takes pixels for square: other than 1 only `window` will do, and automatic is that.
   double pixel_aspect = 1.0;
   /// Standard deviation in CIELAB units; > 0 and finite.
   double range_sigma = 15.0;

@@ -1,4 +1,5 @@
-// Stage `chroma`: towards the white of the same Y, by s(Lloc)/s(5), s(L) = L/(L + .108) (Wanat & Mantiuk 2014).
+// Stage `chroma`: towards the white of the same Y, by s(Lloc)/s(5), s(L) = L/(L + .108) (Wanat & Mantiuk
+// 2014).
 #if defined(SCOTOPIC_STAGES_CHROMA_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SCOTOPIC_STAGES_CHROMA_INL_H_
 #undef SCOTOPIC_STAGES_CHROMA_INL_H_

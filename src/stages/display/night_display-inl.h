@@ -16,10 +16,12 @@ namespace scotopic::HWY_NAMESPACE {
 
 /// Light of the display, x, bent below 1. `v` = max(x).
 template <class N, class V = typename N::V>
-HWY_INLINE Triple<V> shouldered(const N& n, const DisplayConstants<typename N::T>& k, const Triple<V>& x, V v) {
+HWY_INLINE Triple<V> shouldered(const N& n, const DisplayConstants<typename N::T>& k, const Triple<V>& x,
+                                V v) {
   const V start = n.constant(k.start);
   const V above = n.max(n.zero(), v - start);
-  const V level = start + n.constant(k.room) * (n.one() - n.exp(n.zero() - above * n.constant(k.inverse_room)));
+  const V level =
+      start + n.constant(k.room) * (n.one() - n.exp(n.zero() - above * n.constant(k.inverse_room)));
   const V over = n.max(n.zero(), v - n.one());
   const V white = over / (over + n.constant(k.whiteness));
   const V share = (level / positive_or_one(n, v)) * (n.one() - white);
@@ -29,8 +31,8 @@ HWY_INLINE Triple<V> shouldered(const N& n, const DisplayConstants<typename N::T
 
 /// The stage on one finite pixel. Where nothing is clipped or bent it is the scale alone.
 template <class N, class V = typename N::V>
-HWY_INLINE Triple<V> night_display(const N& n, const DisplayConstants<typename N::T>& k, const DisplaySwitches& on,
-                                   const Triple<V>& rgb) {
+HWY_INLINE Triple<V> night_display(const N& n, const DisplayConstants<typename N::T>& k,
+                                   const DisplaySwitches& on, const Triple<V>& rgb) {
   const Triple<V> plain = n.constant(k.scale) * rgb;
   const Triple<V> light = on.same_primaries ? plain : times(n, k.display_from_rgb, rgb);
   const Triple<V> x = {n.max(n.zero(), light.x), n.max(n.zero(), light.y), n.max(n.zero(), light.z)};

@@ -1,7 +1,9 @@
-// Stage `display`: from scene light as it is seen to what a display is sent. One scale for all of a picture, after Ward 1994
-// ("A contrast-based scalefactor for luminance display"): what is just visible in the scene is just visible on the display.
-// No neighbours and no measuring: constant over a shot, and exact in a LUT. What is brighter than the display goes over a
-// shoulder, hue kept, and turns white from there on: a lamp has a white core, as cameras, films and eyes have it.
+// Stage `display`: from scene light as it is seen to what a display is sent. One scale for all of a picture,
+// after Ward 1994
+// ("A contrast-based scalefactor for luminance display"): what is just visible in the scene is just visible
+// on the display. No neighbours and no measuring: constant over a shot, and exact in a LUT. What is brighter
+// than the display goes over a shoulder, hue kept, and turns white from there on: a lamp has a white core, as
+// cameras, films and eyes have it.
 //   k  = (La_d/La) 2^EV_d(La)                 display cd/m2 per scene cd/m2 (adaptation/thresholds.h)
 //   x  = max(0, rgb) k unit/peak              in the display's primaries; v = max(x)
 //   s  = v (v <= a), a + (1-a)(1 - e^(-(v-a)/(1-a))) (v > a), a = 1/2
@@ -19,11 +21,13 @@ namespace scotopic {
 
 /// Share of the peak up to which light is shown as it is (our choice).
 inline constexpr double shoulder_start = 0.5;
-/// Light over the peak, in peaks, at which a colour is half way to white (our choice, by eye: a red tail lamp of 60, 2, 0.5
-/// stays red at La 0.1 and 0.01 - with 8 it is pink -, and a street lamp of some hundred peaks has a white core).
+/// Light over the peak, in peaks, at which a colour is half way to white (our choice, by eye: a red tail lamp
+/// of 60, 2, 0.5 stays red at La 0.1 and 0.01 - with 8 it is pink -, and a street lamp of some hundred peaks
+/// has a white core).
 inline constexpr double shoulder_whiteness = 32;
 
-/// Whether light that the display cannot show is bent below its peak. `clip` is for pictures that cannot hold such light.
+/// Whether light that the display cannot show is bent below its peak. `clip` is for pictures that cannot hold
+/// such light.
 enum class Shoulder { bend, clip };
 
 /// What the stage is told.
@@ -52,12 +56,12 @@ V display_scale(const DisplayLight<V>& light, VisibilityRule rule) {
   return light.viewing / light.adaptation * exp2(stops) * light.white_luminance / light.peak;
 }
 
-/// k unit/peak: display light, in peaks, per image value. Exactly 1 where it is 1 to rounding, so that such pictures keep
-/// their bits.
+/// k unit/peak: display light, in peaks, per image value. Exactly 1 where it is 1 to rounding, so that such
+/// pictures keep their bits.
 double display_scale(const NightDisplayParameters& parameters) noexcept;
 
-/// The stage in double: linear RGB of the planes' primaries, 1 = the display's peak. A pixel with a component that is not
-/// finite, or beyond 2^120, passes unchanged.
+/// The stage in double: linear RGB of the planes' primaries, 1 = the display's peak. A pixel with a component
+/// that is not finite, or beyond 2^120, passes unchanged.
 Vec3<double> night_display(const NightDisplayParameters& parameters, const Vec3<double>& rgb) noexcept;
 
 /// What formulas read; see pixel_stages.

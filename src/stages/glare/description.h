@@ -17,9 +17,15 @@ inline constexpr StageParameter glare_parameters[] = {
     {"pigmentation", "", 0, 1.2, 0.5, "Of the eye: 0 black, 0.5 brown (default), 1 blue, 1.2 very light"},
     strength_of("strength-glare", "Of the scattered light, 0 to 1")};
 inline constexpr StageDescription glare_description = {
-    "glare", "", "Glare", StageSupport::frame,
-    "RGB, or cones' and rods' signals", "the same, with a halo around lamps",
+    "glare",
+    "",
+    "Glare",
+    StageSupport::frame,
+    "RGB, or cones' and rods' signals",
+    "the same, with a halo around lamps",
     "no pixel is brighter than the threshold, or no veil is 1 % of a pixel's light",
-    "it needs the whole picture, which no LUT sees", "", glare_parameters};
+    "it needs the whole picture, which no LUT sees",
+    "",
+    glare_parameters};
 
 }  // namespace scotopic

@@ -15,7 +15,8 @@ namespace scotopic::HWY_NAMESPACE {
 
 /// MES2's own weighting, (m Y + (1-m) rho Rn C)/(m + (1-m) rho C), relative to a D65 white.
 template <class N, class V = typename N::V>
-HWY_INLINE V mesopic_policy_luminance(const N& n, const LuminanceConstants<typename N::T>& k, V y, V rod, V share) {
+HWY_INLINE V mesopic_policy_luminance(const N& n, const LuminanceConstants<typename N::T>& k, V y, V rod,
+                                      V share) {
   const V rods = share * n.constant(k.rods_weight);
   const V weight = rods / ((n.one() - share) + rods);
   return y + weight * (rod * n.constant(k.inverse_rod_white) - y);

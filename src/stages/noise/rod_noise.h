@@ -31,12 +31,13 @@ namespace scotopic {
 struct RodNoiseParameters {
   /// Adaptation luminance, unit, primaries, rods' estimate and light. Its strengths are not read.
   AppearanceParameters eye;
-  double pixels_per_degree = 20;         ///< > 0
-  std::optional<double> rod_adaptation;  ///< L_r, cd/m2, where it is not La (adaptation/time/dark_adaptation.h)
-  double bleach_light = 0;               ///< L_r - A_r, cd/m2, >= 0
-  double exposure = 1;                   ///< e, that the picture was scaled by for adaptation in time
-  double strength = 1;                   ///< 0 to 1, of dY
-  double hidden_fraction = 0.1;          ///< nu: relative fluctuations under it are not seen
+  double pixels_per_degree = 20;  ///< > 0
+  std::optional<double>
+      rod_adaptation;            ///< L_r, cd/m2, where it is not La (adaptation/time/dark_adaptation.h)
+  double bleach_light = 0;       ///< L_r - A_r, cd/m2, >= 0
+  double exposure = 1;           ///< e, that the picture was scaled by for adaptation in time
+  double strength = 1;           ///< 0 to 1, of dY
+  double hidden_fraction = 0.1;  ///< nu: relative fluctuations under it are not seen
 };
 
 /// Constants of the eye; from memory unless said.

@@ -9,12 +9,13 @@
 
 namespace scotopic {
 
-/// Colours whose luminance is less than this share of their largest cone signal (white: 1) are no light - noise,
-/// or another gamut's remnants - and are scaled by a regularised ratio. A 450 nm laser has .02.
+/// Colours whose luminance is less than this share of their largest cone signal (white: 1) are no light -
+/// noise, or another gamut's remnants - and are scaled by a regularised ratio. A 450 nm laser has .02.
 inline constexpr double luminance_floor = 1.0 / 64;
 
-/// Half-saturation luminance of s(L) = L/(L + .108), chroma against luminance (Wanat & Mantiuk 2014, "Simulating
-/// and compensating changes in appearance between day and night vision", fitted there to contrast matching).
+/// Half-saturation luminance of s(L) = L/(L + .108), chroma against luminance (Wanat & Mantiuk 2014,
+/// "Simulating and compensating changes in appearance between day and night vision", fitted there to contrast
+/// matching).
 inline constexpr double chroma_half_luminance = 0.108;
 
 /// What every pixel shares: matrices, whites, effective strengths, worked out once.
@@ -23,9 +24,9 @@ struct OperatorConstants {
   explicit OperatorConstants(const AppearanceParameters& parameters);
 
   AppearanceParameters parameters;
-  Kernel<double> kernel;            ///< takes luminance units of 1 cd/m2
-  double kernel_scale;              ///< T, kernel units per luminance unit
-  Matrix3<double> lms_from_rgb;     ///< luminance units per image value 1, that is per white_luminance
+  Kernel<double> kernel;         ///< takes luminance units of 1 cd/m2
+  double kernel_scale;           ///< T, kernel units per luminance unit
+  Matrix3<double> lms_from_rgb;  ///< luminance units per image value 1, that is per white_luminance
   Matrix3<double> rgb_from_lms;
   Vec3<double> luminance_from_rgb;  ///< Y row of xyz_from_rgb
   Vec3<double> cone_white;          ///< q of image white (1, 1, 1)
@@ -35,17 +36,20 @@ struct OperatorConstants {
   Matrix3<double> gamut_from_rgb;   ///< of the projection's gamut; identity if none
   Matrix3<double> rgb_from_gamut;
   bool project;
-  bool gamut_is_rgb;                ///< the gamut is that of the RGB given: no change of primaries
+  bool gamut_is_rgb;  ///< the gamut is that of the RGB given: no change of primaries
 };
 
-/// T of the kernel: what one luminance unit is in the preset's own units, with the eye adapted to `adaptation` cd/m2.
-/// V: see adaptation/closed_forms.h.
+/// T of the kernel: what one luminance unit is in the preset's own units, with the eye adapted to
+/// `adaptation` cd/m2. V: see adaptation/closed_forms.h.
 template <class V>
 V kernel_scale_at(const AppearanceParameters& p, const V& adaptation) {
   switch (p.model) {
-    case Model::kirk2011: return closed_forms::trolands_per_luminance(adaptation);
-    case Model::safko2019: return p.safko_scale;
-    case Model::filament2021: break;
+    case Model::kirk2011:
+      return closed_forms::trolands_per_luminance(adaptation);
+    case Model::safko2019:
+      return p.safko_scale;
+    case Model::filament2021:
+      break;
   }
   return filament2021_scale;
 }

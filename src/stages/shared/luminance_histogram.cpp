@@ -17,7 +17,8 @@ double LuminanceHistogram::last_place(std::size_t bin) noexcept {
 
 double LuminanceHistogram::mean(std::size_t bin) const noexcept {
   const Bin& b = bins_[bin];
-  return first_value(bin) + static_cast<double>(b.above_first) / static_cast<double>(b.count) * last_place(bin);
+  return first_value(bin) +
+         static_cast<double>(b.above_first) / static_cast<double>(b.count) * last_place(bin);
 }
 
 std::uint64_t LuminanceHistogram::count() const noexcept {

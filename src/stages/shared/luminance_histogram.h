@@ -11,9 +11,9 @@
 
 namespace scotopic {
 
-/// Bins are runs of 2^18 consecutive floats: 32 to the octave, none wider than 3.1 %. Each keeps its count and the
-/// integer sum of its values in units of their last place, so that the result does not depend on the order in
-/// which values or histograms are added. Holds up to 2^40 values.
+/// Bins are runs of 2^18 consecutive floats: 32 to the octave, none wider than 3.1 %. Each keeps its count
+/// and the integer sum of its values in units of their last place, so that the result does not depend on the
+/// order in which values or histograms are added. Holds up to 2^40 values.
 class LuminanceHistogram {
  public:
   static constexpr int bin_shift = 18;
@@ -27,7 +27,8 @@ class LuminanceHistogram {
       ++dark_;
       return;
     }
-    const std::uint32_t bits = std::bit_cast<std::uint32_t>(std::min(luminance, std::numeric_limits<float>::max()));
+    const std::uint32_t bits =
+        std::bit_cast<std::uint32_t>(std::min(luminance, std::numeric_limits<float>::max()));
     Bin& bin = bins_[bits >> bin_shift];
     ++bin.count;
     bin.above_first += bits & ((1u << bin_shift) - 1);
@@ -49,8 +50,8 @@ class LuminanceHistogram {
 
   /// Sum of the positive values; exact but for the rounding of one double sum over bins.
   double sum() const noexcept;
-  /// Mean of ln(x + offset) over all values, dark ones as x = 0; offset > 0. Each bin counts as its mean, which
-  /// is wrong by less than 4e-5 (a picture of one value: exact). No values: NaN.
+  /// Mean of ln(x + offset) over all values, dark ones as x = 0; offset > 0. Each bin counts as its mean,
+  /// which is wrong by less than 4e-5 (a picture of one value: exact). No values: NaN.
   double mean_log(double offset) const noexcept;
   /// Smallest bin mean such that the share `q` of all values is at or below it (dark values are 0).
   double quantile(double q) const noexcept;

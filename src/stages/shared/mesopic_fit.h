@@ -12,11 +12,12 @@ namespace scotopic {
 
 /// For a D65-like light (S/P 2.4648) between the two limits where m is neither 0 nor 1:
 ///   1 - m = v sum_k coefficient[k] v^k,   v = log2(high/L) / octaves in [0, 1].
-/// The factor v keeps the share's own digits as it goes to 0 at the photopic limit, where shifts are many times a
-/// dark pixel's light. Chebyshev interpolation of mesopic_coefficient(), which is analytic well beyond the interval:
-/// |error| < 2e-8 at degree 7, < 1e-14 at degree 17 (tests/appearance). With the batch's own logarithm, what is left of a
-/// light that rods do not see, m/(m + (1-m) rho C), is right to 4 ulp of 1 in float, and to 1.5 ulp with double inside and
-/// a float out, for every float from 1e-20 to 5 cd/m2 (tests/properties).
+/// The factor v keeps the share's own digits as it goes to 0 at the photopic limit, where shifts are many
+/// times a dark pixel's light. Chebyshev interpolation of mesopic_coefficient(), which is analytic well
+/// beyond the interval: |error| < 2e-8 at degree 7, < 1e-14 at degree 17 (tests/appearance). With the batch's
+/// own logarithm, what is left of a light that rods do not see, m/(m + (1-m) rho C), is right to 4 ulp of 1
+/// in float, and to 1.5 ulp with double inside and a float out, for every float from 1e-20 to 5 cd/m2
+/// (tests/properties).
 template <std::size_t Degree>
 struct MesopicFit {
   double high = mesopic_photopic_limit();

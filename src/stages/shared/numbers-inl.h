@@ -1,7 +1,8 @@
-// What the stages' formulas are written over: a number type, and three of its values side by side. A number type N says
+// What the stages' formulas are written over: a number type, and three of its values side by side. A number
+// type N says
 //   T               what constants are held in                V, M    a value, and a yes or no for it
-//   + - * / of V    one rounding each, never fused            max min abs sqrt less less_equal greater not_equal
-//   constant(x)     a member of the stages' constants          number(x), zero(), one()  a literal
+//   + - * / of V    one rounding each, never fused            max min abs sqrt less less_equal greater
+//   not_equal constant(x)     a member of the stages' constants          number(x), zero(), one()  a literal
 //   select(m,a,b)   a where m, else b                          kept(m,a), dropped(m,a)  a, or 0
 //   both either without                                        none(m)  true: m holds nowhere (false: it may)
 //   rod_share(x,k)  1 - m of MES2 at x cd/m2                   exp(x), see there for its domain

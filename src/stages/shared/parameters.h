@@ -17,8 +17,8 @@ enum class Weight { local, global };
 /// What luminance a pixel gets: that of MES2, the photopic one it came with, or the kernel's own.
 enum class LuminancePolicy { mesopic, photopic, none };
 
-/// Strength of each effect, 0 (off, costs nothing) to 1 (the model). `all` mixes result and input, in linear light:
-/// (1 - all) in + all out, so that a slider is monotone.
+/// Strength of each effect, 0 (off, costs nothing) to 1 (the model). `all` mixes result and input, in linear
+/// light: (1 - all) in + all out, so that a slider is monotone.
 struct Strengths {
   double all = 1.0;
   double shift = 1.0;
@@ -33,7 +33,8 @@ struct AppearanceParameters {
   double adaptation = 0.1;
   /// cd/m2 that image value 1 stands for (the "unit"); > 0 and finite.
   double white_luminance = 0.1 / 0.18;
-  /// L_r, cd/m2: what rods are adapted to where that is not La, as after other light (adaptation/time/dark_adaptation.h).
+  /// L_r, cd/m2: what rods are adapted to where that is not La, as after other light
+  /// (adaptation/time/dark_adaptation.h).
   std::optional<double> rod_adaptation;
   Weight weight = Weight::local;
   LuminancePolicy luminance = LuminancePolicy::mesopic;

@@ -19,8 +19,8 @@ class GamutProjection {
  public:
   static constexpr std::size_t active_sets = 8;
 
-  /// Row i of `primal` gives z_i of the set's solution from the unconstrained z (a bound component's row is 0);
-  /// row i of `dual` gives the multiplier of bound component i (a free component's row is 0).
+  /// Row i of `primal` gives z_i of the set's solution from the unconstrained z (a bound component's row is
+  /// 0); row i of `dual` gives the multiplier of bound component i (a free component's row is 0).
   struct ActiveSet {
     Matrix3<T> primal;
     Matrix3<T> dual;
@@ -78,11 +78,13 @@ class GamutProjection {
         if (!bound(i) && bound(j)) coupling[i][j] = gram[i][j];
     Matrix3<double> primal = free_inverse * coupling;
     for (std::size_t i = 0; i < 3; ++i) {
-      if (bound(i)) primal[i] = {0, 0, 0};
-      else primal[i][i] += 1;
+      if (bound(i))
+        primal[i] = {0, 0, 0};
+      else
+        primal[i][i] += 1;
     }
-    // Multipliers: gradient of the distance at the solution, gram (z* - z), on the bound components; scaled by
-    // the diagonal so that primal and dual margins are in the same unit.
+    // Multipliers: gradient of the distance at the solution, gram (z* - z), on the bound components; scaled
+    // by the diagonal so that primal and dual margins are in the same unit.
     Matrix3<double> step = primal;
     for (std::size_t i = 0; i < 3; ++i) step[i][i] -= 1;
     Matrix3<double> dual = gram * step;

@@ -33,11 +33,12 @@ struct BatchPrecision<double> {
 template <typename T>
 struct WeightConstants {
   T unit, adaptation, scotopic_limit, photopic_limit;
-  T behind;  ///< L_r - La: rods that are still adapting
-  T luminance_rounding;         ///< of y_row's sum, in cd/m2, per sum of its terms' magnitudes
-  T inverse_high, per_octave;   ///< v = -log2(L * inverse_high) * per_octave
+  T behind;                    ///< L_r - La: rods that are still adapting
+  T luminance_rounding;        ///< of y_row's sum, in cd/m2, per sum of its terms' magnitudes
+  T inverse_high, per_octave;  ///< v = -log2(L * inverse_high) * per_octave
   std::array<T, BatchPrecision<T>::mesopic_degree + 1> mesopic;  ///< (1 - m)/v as a polynomial in v
-  std::array<T, BatchPrecision<T>::log_terms> log_series;  ///< log2 f = s sum_k log_series[k] s^2k, s = (f-1)/(f+1)
+  std::array<T, BatchPrecision<T>::log_terms>
+      log_series;  ///< log2 f = s sum_k log_series[k] s^2k, s = (f-1)/(f+1)
 };
 
 /// Cones and rods from colour.
@@ -81,7 +82,8 @@ struct ChromaConstants {
 
 /// What is on.
 struct StageSwitches {
-  bool safko, local, mesopic_policy, quadratic_rods, shift, project, gamut_is_rgb, luminance, chroma, mix, adapting;
+  bool safko, local, mesopic_policy, quadratic_rods, shift, project, gamut_is_rgb, luminance, chroma, mix,
+      adapting;
 
   explicit StageSwitches(const OperatorConstants& c) noexcept
       : safko(c.parameters.model == Model::safko2019),
@@ -97,15 +99,15 @@ struct StageSwitches {
         adapting(c.parameters.rod_adaptation.has_value()) {}
 };
 
-/// Stages that code without branches is compiled for; all with local weight, linear rods, and a projection into the
-/// gamut of the RGB that comes in where there is a shift. `any` asks the switches instead.
+/// Stages that code without branches is compiled for; all with local weight, linear rods, and a projection
+/// into the gamut of the RGB that comes in where there is a shift. `any` asks the switches instead.
 enum class StageSet {
   any,
-  all,     ///< shift, mesopic luminance, chroma: what a look has by default
-  grey,    ///< shift, photopic luminance, chroma: what the planner leaves of it where S/P ratios are white's
-  shift,   ///< one alone
+  all,    ///< shift, mesopic luminance, chroma: what a look has by default
+  grey,   ///< shift, photopic luminance, chroma: what the planner leaves of it where S/P ratios are white's
+  shift,  ///< one alone
   chroma,
-  kernel   ///< safko2019
+  kernel  ///< safko2019
 };
 
 /// The set that is on; any, where there is no loop for just that.
@@ -198,8 +200,8 @@ ShiftConstants<T> shift_constants(const OperatorConstants& c) {
 template <typename T>
 LuminanceConstants<T> luminance_constants(const OperatorConstants& c) {
   const auto t = [](double x) { return static_cast<T>(x); };
-  LuminanceConstants<T> k{t(sp_ratio_d65 * mes2_efficacy_ratio), t(1 / c.rod_white), t(1 - c.luminance),
-                          t(luminance_floor), {}};
+  LuminanceConstants<T> k{
+      t(sp_ratio_d65 * mes2_efficacy_ratio), t(1 / c.rod_white), t(1 - c.luminance), t(luminance_floor), {}};
   for (std::size_t i = 0; i < 3; ++i) k.inverse_cone_white[i] = t(1 / c.cone_white[i]);
   return k;
 }

@@ -1,5 +1,5 @@
-// The nearest colour, in LMS, that the gamut holds (Kirk & O'Brien 2011, equations 14-15; shared/projection.h has the
-// active sets).
+// The nearest colour, in LMS, that the gamut holds (Kirk & O'Brien 2011, equations 14-15; shared/projection.h
+// has the active sets).
 #if defined(SCOTOPIC_STAGES_PROJECTION_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SCOTOPIC_STAGES_PROJECTION_INL_H_
 #undef SCOTOPIC_STAGES_PROJECTION_INL_H_
@@ -23,8 +23,8 @@ HWY_INLINE V active_term(const N& n, const Vec3<typename N::T>& row, V z) {
   return z;
 }
 
-/// Entry i of the set's solution: the multiplier of a bound component, or a free one. Rows hold but the columns of
-/// bound components, and 1 at a free one's own: what is 0 and 1 there is not multiplied.
+/// Entry i of the set's solution: the multiplier of a bound component, or a free one. Rows hold but the
+/// columns of bound components, and 1 at a free one's own: what is 0 and 1 there is not multiplied.
 template <unsigned bound, unsigned i, class N, class V>
 HWY_INLINE V active_entry(const N& n, const ShiftConstants<typename N::T>& k, const Triple<V>& z) {
   constexpr bool is_bound = bound >> i & 1u;
@@ -47,14 +47,15 @@ HWY_INLINE V entry_taken(const N& n, M better, V entry, V best) {
 
 /// Takes the solution of one active set where its worst entry is greater than `margin`.
 template <unsigned bound, class N, class V>
-HWY_INLINE void try_active_set(const N& n, const ShiftConstants<typename N::T>& k, const Triple<V>& z, V& margin,
-                               Triple<V>& best) {
+HWY_INLINE void try_active_set(const N& n, const ShiftConstants<typename N::T>& k, const Triple<V>& z,
+                               V& margin, Triple<V>& best) {
   const Triple<V> entries = {active_entry<bound, 0>(n, k, z), active_entry<bound, 1>(n, k, z),
                              active_entry<bound, 2>(n, k, z)};
   const V worst = smallest(n, entries);
   const auto better = n.greater(worst, margin);
   margin = n.select(better, worst, margin);
-  best = {entry_taken<bound, 0>(n, better, entries.x, best.x), entry_taken<bound, 1>(n, better, entries.y, best.y),
+  best = {entry_taken<bound, 0>(n, better, entries.x, best.x),
+          entry_taken<bound, 1>(n, better, entries.y, best.y),
           entry_taken<bound, 2>(n, better, entries.z, best.z)};
 }
 
@@ -73,7 +74,8 @@ HWY_INLINE Triple<V> nearest_inside(const N& n, const ShiftConstants<typename N:
   return {n.max(best.x, n.zero()), n.max(best.y, n.zero()), n.max(best.z, n.zero())};
 }
 
-/// `moved`, or the nearest colour inside; components of `in` below 0 may stay so. `cones` become those of the result.
+/// `moved`, or the nearest colour inside; components of `in` below 0 may stay so. `cones` become those of the
+/// result.
 template <class N, class V>
 HWY_INLINE Triple<V> projected(const N& n, const ShiftConstants<typename N::T>& k,
                                const ReceptorConstants<typename N::T>& receptors, bool gamut_is_rgb,

@@ -21,11 +21,13 @@ HWY_INLINE V gain_root(const N& n, const ShiftConstants<typename N::T>& k, V q, 
   return n.sqrt(n.one() + n.max(n.zero(), signal));
 }
 
-/// g r of the kernel (kernel/kernel.h). In double one division serves the three roots, whose product its exponents
-/// hold; in float they would not.
+/// g r of the kernel (kernel/kernel.h). In double one division serves the three roots, whose product its
+/// exponents hold; in float they would not.
 template <class N, class V = typename N::V>
-HWY_INLINE Triple<V> rod_response(const N& n, const ShiftConstants<typename N::T>& k, const Triple<V>& q, V rod) {
-  const Triple<V> root = {gain_root(n, k, q.x, rod, 0), gain_root(n, k, q.y, rod, 1), gain_root(n, k, q.z, rod, 2)};
+HWY_INLINE Triple<V> rod_response(const N& n, const ShiftConstants<typename N::T>& k, const Triple<V>& q,
+                                  V rod) {
+  const Triple<V> root = {gain_root(n, k, q.x, rod, 0), gain_root(n, k, q.y, rod, 1),
+                          gain_root(n, k, q.z, rod, 2)};
   if constexpr (sizeof(typename N::T) == sizeof(float)) return {rod / root.x, rod / root.y, rod / root.z};
   const V xy = root.x * root.y;
   const V over_all = rod / (xy * root.z);
@@ -33,15 +35,17 @@ HWY_INLINE Triple<V> rod_response(const N& n, const ShiftConstants<typename N::T
   return {over_xy * root.y, over_xy * root.x, over_all * xy};
 }
 
-/// RGB' = RGB + RGB_from_LMS (w Δq), projected where the result leaves the gamut. `w` = strength (1 - m); 0: as it came.
+/// RGB' = RGB + RGB_from_LMS (w Δq), projected where the result leaves the gamut. `w` = strength (1 - m); 0:
+/// as it came.
 template <class N, class S, class V = typename N::V>
-HWY_INLINE void shift(const N& n, const ShiftConstants<typename N::T>& k, const ReceptorConstants<typename N::T>& r,
-                      const S& on, PixelState<V>& s) {
+HWY_INLINE void shift(const N& n, const ShiftConstants<typename N::T>& k,
+                      const ReceptorConstants<typename N::T>& r, const S& on, PixelState<V>& s) {
   const V w = n.constant(k.strength) * s.share;
   const Triple<V> response = w * rod_response(n, k, on.has_cones(s.in) ? s.in.cones : s.cones, s.rod);
   s.cones = s.cones + times(n, k.lms_shift, response);
   const Triple<V> moved = s.in.rgb + times(n, k.rgb_shift, response);
-  const Triple<V> rgb = on.project() ? projected(n, k, r, on.gamut_is_rgb(), moved, s.in.rgb, s.cones) : moved;
+  const Triple<V> rgb =
+      on.project() ? projected(n, k, r, on.gamut_is_rgb(), moved, s.in.rgb, s.cones) : moved;
   s.rgb = select(n, n.greater(w, n.zero()), rgb, s.in.rgb);
 }
 

@@ -33,7 +33,8 @@ std::string shell(const std::string& command, int* code = nullptr) {
 std::set<std::string> long_options(const std::string& text) {
   std::set<std::string> names;
   const std::regex option("--[a-z][-a-z]+");
-  for (std::sregex_iterator it(text.begin(), text.end(), option), end; it != end; ++it) names.insert(it->str());
+  for (std::sregex_iterator it(text.begin(), text.end(), option), end; it != end; ++it)
+    names.insert(it->str());
   return names;
 }
 
@@ -41,7 +42,8 @@ std::set<std::string> long_options(const std::string& text) {
 std::set<std::string> listed_options(const std::string& help) {
   std::set<std::string> names;
   const std::regex option("\n  (?:-[a-zA-Z],)?(--[a-z][-a-z]+)");
-  for (std::sregex_iterator it(help.begin(), help.end(), option), end; it != end; ++it) names.insert((*it)[1]);
+  for (std::sregex_iterator it(help.begin(), help.end(), option), end; it != end; ++it)
+    names.insert((*it)[1]);
   return names;
 }
 
@@ -50,14 +52,17 @@ std::vector<std::string> verbs() {
   std::vector<std::string> names;
   const std::regex verb("\n  ([a-z]+) {2,}");
   const std::string list = help.substr(help.find("Subcommands:"));
-  for (std::sregex_iterator it(list.begin(), list.end(), verb), end; it != end; ++it) names.push_back((*it)[1]);
+  for (std::sregex_iterator it(list.begin(), list.end(), verb), end; it != end; ++it)
+    names.push_back((*it)[1]);
   return names;
 }
 
 /// Words that bash would offer after "scotopic WORDS...", the last of which is being typed.
 std::set<std::string> offered(const std::string& words) {
-  const std::string script = "source " SCOTOPIC_SOURCE_DIR "/scripts/completion/scotopic.bash; compopt() { :; }; COMP_WORDS=(" SCOTOPIC_PROGRAM " " + words +
-                             "); COMP_CWORD=$((${#COMP_WORDS[@]}-1)); _scotopic_words; printf \"%s\\n\" \"${COMPREPLY[@]}\"";
+  const std::string script =
+      "source " SCOTOPIC_SOURCE_DIR
+      "/scripts/completion/scotopic.bash; compopt() { :; }; COMP_WORDS=(" SCOTOPIC_PROGRAM " " +
+      words + "); COMP_CWORD=$((${#COMP_WORDS[@]}-1)); _scotopic_words; printf \"%s\\n\" \"${COMPREPLY[@]}\"";
   std::istringstream lines(shell("bash --norc -c '" + script + "'"));
   std::set<std::string> out;
   for (std::string line; std::getline(lines, line);)
@@ -86,9 +91,11 @@ TEST(Pages, are_in_good_roff) {
   shell("command -v man groff >/dev/null", &code);
   if (code != 0) GTEST_SKIP() << "man and groff are not installed";
   for (const std::string& verb : verbs()) {
-    const std::string warnings = shell("LC_ALL=C MANWIDTH=100 man --warnings -l " + page("scotopic-" + verb) + " 2>&1 >/dev/null");
+    const std::string warnings =
+        shell("LC_ALL=C MANWIDTH=100 man --warnings -l " + page("scotopic-" + verb) + " 2>&1 >/dev/null");
     EXPECT_EQ(warnings, "") << verb;
-    const std::string text = shell("LC_ALL=C MANWIDTH=100 man -l " + page("scotopic-" + verb) + " 2>/dev/null | cat");
+    const std::string text =
+        shell("LC_ALL=C MANWIDTH=100 man -l " + page("scotopic-" + verb) + " 2>/dev/null | cat");
     EXPECT_NE(text.find("EXIT STATUS"), std::string::npos) << verb;
   }
 }
@@ -98,7 +105,8 @@ TEST(Completion, bash_offers_the_verbs_and_every_option_of_a_verbs_help) {
   for (const std::string& verb : verbs()) {
     EXPECT_TRUE(first.count(verb)) << verb;
     const std::set<std::string> options = offered(verb + " --");
-    for (const std::string& option : listed_options(test::run_program({verb, "--help"}).out)) EXPECT_TRUE(options.count(option)) << verb << " " << option;
+    for (const std::string& option : listed_options(test::run_program({verb, "--help"}).out))
+      EXPECT_TRUE(options.count(option)) << verb << " " << option;
   }
   EXPECT_EQ(offered("ap"), std::set<std::string>{"apply"});
   EXPECT_EQ(offered("apply --skip"), std::set<std::string>{"--skip-existing"});
@@ -110,25 +118,28 @@ TEST(Completion, bash_offers_the_values_that_the_program_takes) {
   EXPECT_EQ(offered("lmsr --rods \"\""), (std::set<std::string>{"linear", "quadratic"}));
   EXPECT_TRUE(offered("apply -d \"\"").count("uint16"));
   // Each is taken: the program goes on to the input, which is not there.
-  for (const char* option : {"--model", "--weight", "--luminance", "--gamut", "--rods", "--precision", "--nonfinite", "-d", "--acuity-space"}) {
+  for (const char* option : {"--model", "--weight", "--luminance", "--gamut", "--rods", "--precision",
+                             "--nonfinite", "-d", "--acuity-space"}) {
     const std::set<std::string> values = offered(std::string("apply ") + option + " \"\"");
     EXPECT_GE(values.size(), 2u) << option;
     for (const std::string& value : values) {
-      const test::Outcome outcome = test::run_program({"apply", "no/such/file", "-o", "/tmp/scotopic-none.tif", "--adaptation", "1", option, value});
+      const test::Outcome outcome = test::run_program(
+          {"apply", "no/such/file", "-o", "/tmp/scotopic-none.tif", "--adaptation", "1", option, value});
       EXPECT_EQ(outcome.exit_code, 3) << option << " " << value << " " << outcome.err;
     }
   }
 }
 
 TEST(Completion, files_and_numbers_are_not_guessed) {
-  EXPECT_TRUE(offered("apply --config \"\"").empty());   // left to the shell's own completion of names
+  EXPECT_TRUE(offered("apply --config \"\"").empty());  // left to the shell's own completion of names
   EXPECT_TRUE(offered("apply --exposure \"\"").empty());
   EXPECT_TRUE(offered("apply \"\"").empty());
 }
 
 TEST(Completion, other_shells_can_read_theirs) {
   int tried = 0;
-  for (const auto& [name, script] : {std::pair<std::string, std::string>{"zsh", "_scotopic"}, {"fish", "scotopic.fish"}}) {
+  for (const auto& [name, script] :
+       {std::pair<std::string, std::string>{"zsh", "_scotopic"}, {"fish", "scotopic.fish"}}) {
     int code = 0;
     shell("command -v " + name + " >/dev/null", &code);
     if (code != 0) continue;

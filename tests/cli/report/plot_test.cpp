@@ -57,7 +57,8 @@ TEST(Plot, a_scene_has_a_bar_for_every_octave_and_a_line_where_the_eye_is) {
 }
 
 TEST(Plot, a_shot_has_a_point_for_each_frame_and_a_line_at_each_change) {
-  const std::string shot = "frame,adaptation_cdm2,sp_ratio,effects\n1,0.1,1.2,shift\n2,0.2,1.2,shift\n3,1,1.2,shift chroma\n";
+  const std::string shot =
+      "frame,adaptation_cdm2,sp_ratio,effects\n1,0.1,1.2,shift\n2,0.2,1.2,shift\n3,1,1.2,shift chroma\n";
   const std::string svg = drawn("adaptation", shot);
   // A title's own, and one of data.
   EXPECT_EQ(count(svg, "<use xlink:href='#gpPt6'"), 3u + 1) << svg;

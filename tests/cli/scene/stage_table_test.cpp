@@ -1,5 +1,5 @@
-// A stage is one line of the table: a stage of this test's own appears in help, --effects, plan, stamps, JSON and
-// pixels by it.
+// A stage is one line of the table: a stage of this test's own appears in help, --effects, plan, stamps, JSON
+// and pixels by it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,9 +19,9 @@ using namespace test;
 
 constexpr StageParameter invert_parameters[] = {
     {"invert-white", "image units", 0.001, 1000, 1, "What becomes black (default 1)"}};
-constexpr StageDescription invert_description = {
-    "invert", "negative", "Invert", StageSupport::pixel, "RGB", "its negative", "never", "it is a test",
-    "", invert_parameters};
+constexpr StageDescription invert_description = {"invert", "negative",       "Invert", StageSupport::pixel,
+                                                 "RGB",    "its negative",   "never",  "it is a test",
+                                                 "",       invert_parameters};
 
 class InvertRows : public RowStage {
  public:
@@ -113,11 +113,13 @@ TEST(StageTable, a_stage_runs_where_it_is_named_and_is_told_in_plan_stamps_and_p
   const std::string in = picture("invert.exr"), out = temporary("invert-out.exr");
   for (const char* word : {"invert", "negative"}) {
     const nlohmann::json report = nlohmann::json::parse(
-        Program(add_apply).run({"apply", in, "-o", out, "--adaptation", "100", "--effects", word, "--invert-white", "2", "--json", "-q"}));
+        Program(add_apply).run({"apply", in, "-o", out, "--adaptation", "100", "--effects", word,
+                                "--invert-white", "2", "--json", "-q"}));
     EXPECT_EQ(report["effects"]["invert"]["runs"], true);
     EXPECT_EQ(report["effects"]["invert"]["reason"], "it is a test");
     EXPECT_EQ(report["applied"]["scotopic:invertWhite"], 2.0);
-    const std::vector<std::uint32_t> before = read_bits(in, 0, 0, 0, "R"), after = read_bits(out, 0, 0, 0, "R");
+    const std::vector<std::uint32_t> before = read_bits(in, 0, 0, 0, "R"),
+                                     after = read_bits(out, 0, 0, 0, "R");
     for (std::size_t i = 0; i < before.size(); ++i)
       ASSERT_EQ(std::bit_cast<float>(after[i]), 2 - std::bit_cast<float>(before[i])) << i;
   }
@@ -126,15 +128,17 @@ TEST(StageTable, a_stage_runs_where_it_is_named_and_is_told_in_plan_stamps_and_p
 TEST(StageTable, explain_tells_of_it) {
   const std::string in = picture("invert-explain.exr");
   const nlohmann::json report = nlohmann::json::parse(
-      Program(add_explain).run({"explain", in, "--adaptation", "1", "--effects", "shift,invert", "--json", "-q"}));
+      Program(add_explain)
+          .run({"explain", in, "--adaptation", "1", "--effects", "shift,invert", "--json", "-q"}));
   EXPECT_EQ(report["effects"]["invert"]["asked"], true);
 }
 
 TEST(StageTable, values_outside_a_range_are_refused_by_the_parameter_s_name) {
   const std::string in = picture("invert-range.exr");
-  for (const auto& [option, value] : {std::pair("--invert-white", "0"), std::pair("--invert-white", "x"), std::pair("--seed", "0.5"),
-                                      std::pair("--age", "101"), std::pair("--seed", "-1"),
-                                      std::pair("--detail", "sharp"), std::pair("--effects", "inverted")})
+  for (const auto& [option, value] :
+       {std::pair("--invert-white", "0"), std::pair("--invert-white", "x"), std::pair("--seed", "0.5"),
+        std::pair("--age", "101"), std::pair("--seed", "-1"), std::pair("--detail", "sharp"),
+        std::pair("--effects", "inverted")})
     try {
       (void)Program(add_apply).run({"apply", in, "-o", temporary("no.exr"), option, value, "-q"});
       ADD_FAILURE() << option;

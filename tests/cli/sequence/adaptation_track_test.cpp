@@ -12,12 +12,12 @@ namespace {
 
 TEST(AdaptationKeys, are_read_from_csv_and_json) {
   const std::vector<AdaptationKey> expected = {{1, 1000}, {25, 0.5}, {240, 0.01}};
-  for (const char* text : {
-           "1,1000\n25,0.5\n240,0.01\n",
-           "frame,cd/m2\r\n1, 1000\r\n# the door\r\n25, .5\r\n240,1e-2",
-           R"([{"frame": 1, "adaptation": 1000}, {"frame": 25, "adaptation": 0.5}, {"frame": 240, "adaptation": 0.01}])",
-           R"({"keys": [{"frame": 1, "adaptation": 1000}, {"frame": 25, "adaptation": 0.5}, {"frame": 240, "adaptation": 0.01}]})",
-           R"({"shot": {"adaptation": 3}, "frames": [{"frame": 1, "adaptation": 1000, "input": "a"},
+  for (
+      const char* text :
+      {"1,1000\n25,0.5\n240,0.01\n", "frame,cd/m2\r\n1, 1000\r\n# the door\r\n25, .5\r\n240,1e-2",
+       R"([{"frame": 1, "adaptation": 1000}, {"frame": 25, "adaptation": 0.5}, {"frame": 240, "adaptation": 0.01}])",
+       R"({"keys": [{"frame": 1, "adaptation": 1000}, {"frame": 25, "adaptation": 0.5}, {"frame": 240, "adaptation": 0.01}]})",
+       R"({"shot": {"adaptation": 3}, "frames": [{"frame": 1, "adaptation": 1000, "input": "a"},
                {"frame": 25, "adaptation": 0.5}, {"frame": 240, "adaptation": 0.01}]})"})
     EXPECT_EQ(parse_adaptation_keys(text, "k"), expected) << text;
 }
@@ -39,7 +39,8 @@ TEST(AdaptationKeys, that_are_not_understood_are_refused_by_place) {
       ADD_FAILURE() << row.text;
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::input);
-      EXPECT_NE(std::string(error.what()).find(row.says), std::string::npos) << row.text << ": " << error.what();
+      EXPECT_NE(std::string(error.what()).find(row.says), std::string::npos)
+          << row.text << ": " << error.what();
     }
 }
 
@@ -79,8 +80,8 @@ TEST(AdaptationTrack, is_what_it_is_made_of) {
   const AdaptationTrack a({{0, 1}, {5, 2}}, {}, 24, 5, "t");
   EXPECT_EQ(a.identity(), AdaptationTrack({{0, 1}, {5, 2}}, {}, 24, 9, "elsewhere").identity());
   for (const AdaptationTrack& other :
-       {AdaptationTrack({{0, 1}, {5, 2.5}}, {}, 24, 5, "t"), AdaptationTrack({{0, 1}, {6, 2}}, {}, 24, 5, "t"),
-        AdaptationTrack({{0, 1}, {5, 2}}, {}, 25, 5, "t"),
+       {AdaptationTrack({{0, 1}, {5, 2.5}}, {}, 24, 5, "t"),
+        AdaptationTrack({{0, 1}, {6, 2}}, {}, 24, 5, "t"), AdaptationTrack({{0, 1}, {5, 2}}, {}, 25, 5, "t"),
         AdaptationTrack({{0, 1}, {5, 2}}, std::vector<AdaptationPeriod>{{1000, 1}}, 24, 5, "t")})
     EXPECT_NE(a.identity(), other.identity());
 }

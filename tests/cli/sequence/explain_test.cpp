@@ -28,7 +28,8 @@ TEST_F(ExplainFrames, says_each_frames_light_the_shots_and_where_what_is_called_
   EXPECT_EQ(report["shot"]["least"], la.front());
   EXPECT_EQ(report["shot"]["greatest"], la.back());
   // Where the adaptation passes 5 cd/m2.
-  const auto photopic = static_cast<std::size_t>(std::find_if(la.begin(), la.end(), [](double a) { return a >= 5; }) - la.begin());
+  const auto photopic = static_cast<std::size_t>(
+      std::find_if(la.begin(), la.end(), [](double a) { return a >= 5; }) - la.begin());
   ASSERT_GT(photopic, 0u);
   ASSERT_LT(photopic, 8u);
   EXPECT_TRUE(report["frames"][photopic]["effects"].empty());

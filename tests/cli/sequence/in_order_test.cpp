@@ -131,7 +131,8 @@ TEST(InOrder, a_caller_that_throws_leaves_no_thread_behind) {
 }
 
 TEST(InOrder, nothing_to_do_is_done_at_once) {
-  in_order(0, 2, [](std::size_t) { FAIL(); }, [](std::size_t i) { return i > 0; });
+  in_order(
+      0, 2, [](std::size_t) { FAIL(); }, [](std::size_t i) { return i > 0; });
 }
 
 }  // namespace

@@ -24,14 +24,18 @@ TEST(FrameList, lists_mean_what_people_write) {
 }
 
 TEST(FrameList, anything_else_is_a_usage_error_that_quotes_it) {
-  for (const char* text : {"", " ", "a", "1-", "-", "1-2-3", "1,,2", ",1", "1,", "1-10x", "1-10x0", "1-10x-2", "5-1", "1.5", "1e3",
-                           "1-3 ", " 1", "0x10", "1-9999999", "9999999999", "99999999999999999999", "1-10y2", "1x2", "%d", "1;2", "+1"}) {
+  for (const char* text :
+       {"",       " ",    "a",     "1-",     "-",         "1-2-3",      "1,,2",
+        ",1",     "1,",   "1-10x", "1-10x0", "1-10x-2",   "5-1",        "1.5",
+        "1e3",    "1-3 ", " 1",    "0x10",   "1-9999999", "9999999999", "99999999999999999999",
+        "1-10y2", "1x2",  "%d",    "1;2",    "+1"}) {
     try {
       (void)parse_frames(text);
       FAIL() << text;
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::usage) << text;
-      EXPECT_NE(std::string(error.what()).find("'" + std::string(text) + "'"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("'" + std::string(text) + "'"), std::string::npos)
+          << error.what();
     }
   }
 }
@@ -49,7 +53,9 @@ TEST(FrameList, a_text_of_frames_reads_back) {
   }
 }
 
-std::string path(const std::string& pattern, int frame) { return FramePattern(pattern, "the input").path(frame); }
+std::string path(const std::string& pattern, int frame) {
+  return FramePattern(pattern, "the input").path(frame);
+}
 
 TEST(FrameNames, numbers_stand_where_the_pattern_says) {
   EXPECT_EQ(path("in.%04d.exr", 7), "in.0007.exr");
@@ -58,7 +64,7 @@ TEST(FrameNames, numbers_stand_where_the_pattern_says) {
   EXPECT_EQ(path("in.#.exr", 12), "in.12.exr");
   EXPECT_EQ(path("in.@@@.exr", 7), "in.007.exr");
   EXPECT_EQ(path("in.##.exr", 1234), "in.1234.exr");
-  EXPECT_EQ(path("in.%04d.exr", -7), "in.-007.exr");  // as printf has it
+  EXPECT_EQ(path("in.%04d.exr", -7), "in.-007.exr");                     // as printf has it
   EXPECT_EQ(path("shot#/a%d@/in.%02d.exr", 3), "shot#/a%d@/in.03.exr");  // folders are left alone
   EXPECT_EQ(path("####_####.exr", 5), "0005_0005.exr");
   EXPECT_EQ(path("%03d_%d.exr", 5), "005_5.exr");
@@ -80,8 +86,9 @@ TEST(FrameNames, no_name_is_ever_a_format) {
 }
 
 TEST(FrameNames, a_name_without_a_place_is_a_usage_error) {
-  for (const char* name : {"in.exr", "in.%s.exr", "in.%4d.exr", "in.%-4d.exr", "in.%00d.exr", "in.%012d.exr", "in.%i.exr", "in.%",
-                           "in.%04", "in.%%", "####/in.exr", "%04d/in.exr", "", "in.$F4.exr", "in.%ld.exr"}) {
+  for (const char* name :
+       {"in.exr", "in.%s.exr", "in.%4d.exr", "in.%-4d.exr", "in.%00d.exr", "in.%012d.exr", "in.%i.exr",
+        "in.%", "in.%04", "in.%%", "####/in.exr", "%04d/in.exr", "", "in.$F4.exr", "in.%ld.exr"}) {
     EXPECT_FALSE(FramePattern::in(name)) << name;
     EXPECT_THROW(FramePattern(name, "the input"), Error) << name;
   }

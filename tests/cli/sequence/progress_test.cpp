@@ -46,9 +46,23 @@ class ProgressOf : public test::Sequence {
 TEST_F(ProgressOf, a_sequence_is_a_bar_with_rate_and_time_to_go_and_leaves_no_trace) {
   write_frames(1, 1, 1500, 1500);
   for (int f = 2; f <= 6; ++f) write("in.000" + std::to_string(f) + ".exr", bytes("in.0001.exr"));
-  const std::vector<std::string> command = {"apply", path("in.####.exr"), "-o", path("seen.####.exr"), "--frames", "1-6",
-                                            "--adaptation", "0.1", "--white-luminance", "1", "--threads", "1", "--frames-at-once", "1",
-                                            "--acuity", "--ppd", "240"};
+  const std::vector<std::string> command = {"apply",
+                                            path("in.####.exr"),
+                                            "-o",
+                                            path("seen.####.exr"),
+                                            "--frames",
+                                            "1-6",
+                                            "--adaptation",
+                                            "0.1",
+                                            "--white-luminance",
+                                            "1",
+                                            "--threads",
+                                            "1",
+                                            "--frames-at-once",
+                                            "1",
+                                            "--acuity",
+                                            "--ppd",
+                                            "240"};
   const std::string text = on_terminal(command, 100);
   EXPECT_NE(text.find("["), std::string::npos) << text;
   EXPECT_NE(text.find(" of 6 frames, "), std::string::npos) << text;
@@ -68,8 +82,10 @@ TEST_F(ProgressOf, a_sequence_is_a_bar_with_rate_and_time_to_go_and_leaves_no_tr
 
 TEST_F(ProgressOf, a_single_big_picture_has_its_bar_too) {
   write_frames(1, 1, 2500, 2500);
-  const std::string text = on_terminal({"apply", path("in.0001.exr"), "-o", path("seen.exr"), "--adaptation", "0.1", "--white-luminance", "1",
-                                        "--acuity", "--ppd", "240", "--threads", "1"}, 100);
+  const std::string text =
+      on_terminal({"apply", path("in.0001.exr"), "-o", path("seen.exr"), "--adaptation", "0.1",
+                   "--white-luminance", "1", "--acuity", "--ppd", "240", "--threads", "1"},
+                  100);
   EXPECT_NE(text.find(" of 2500 rows"), std::string::npos) << text;
 }
 

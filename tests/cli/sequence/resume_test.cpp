@@ -26,7 +26,9 @@ class Resume : public test::Sequence {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return statuses(applied(arguments));
   }
-  static Statuses all(const std::string& status) { return {{1, status}, {2, status}, {3, status}, {4, status}}; }
+  static Statuses all(const std::string& status) {
+    return {{1, status}, {2, status}, {3, status}, {4, status}};
+  }
 };
 
 TEST_F(Resume, the_same_command_finds_everything_done_whatever_changes_no_pixel) {
@@ -44,15 +46,16 @@ TEST_F(Resume, the_same_command_finds_everything_done_whatever_changes_no_pixel)
 TEST_F(Resume, any_other_option_computes_anew) {
   write_frames(4);
   EXPECT_EQ(again(), all("written"));
-  for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{{"--adaptation", "0.1000001"},
-                                                                                    {"--strength", "0.99"},
-                                                                                    {"--effects", "shift"},
-                                                                                    {"--exposure", "1"},
-                                                                                    {"-d", "float"},
-                                                                                    {"--precision", "double"},
-                                                                                    {"--nonfinite", "clean"},
-                                                                                    {"--illuminant", "a"},
-                                                                                    {"--ppd", "60"}}) {
+  for (const std::vector<std::string>& more :
+       std::vector<std::vector<std::string>>{{"--adaptation", "0.1000001"},
+                                             {"--strength", "0.99"},
+                                             {"--effects", "shift"},
+                                             {"--exposure", "1"},
+                                             {"-d", "float"},
+                                             {"--precision", "double"},
+                                             {"--nonfinite", "clean"},
+                                             {"--illuminant", "a"},
+                                             {"--ppd", "60"}}) {
     EXPECT_EQ(again(more), all("written")) << more[0];
     EXPECT_EQ(again(more), all("skipped")) << more[0];
     EXPECT_EQ(again(), all("written")) << "back from " << more[0];
@@ -101,8 +104,17 @@ TEST_F(Resume, files_that_options_name_count_by_what_they_hold) {
 TEST_F(Resume, pictures_of_other_formats_carry_the_recipe_too) {
   write_frames(2);
   for (const char* format : {"png", "tif"}) {
-    const std::vector<std::string> command = {"apply",  "{}/in.####.exr", "-o", std::string("{}/seen.####.") + format, "--frames", "1-2", "--adaptation",
-                                              "0.1", "--skip-existing", "--json", "-q"};
+    const std::vector<std::string> command = {"apply",
+                                              "{}/in.####.exr",
+                                              "-o",
+                                              std::string("{}/seen.####.") + format,
+                                              "--frames",
+                                              "1-2",
+                                              "--adaptation",
+                                              "0.1",
+                                              "--skip-existing",
+                                              "--json",
+                                              "-q"};
     EXPECT_EQ(nlohmann::json::parse(run(command).out)["written"], 2) << format;
     EXPECT_EQ(nlohmann::json::parse(run(command).out)["skipped"], 2) << format;
   }
@@ -129,8 +141,9 @@ TEST_F(Resume, after_kill_9_only_what_is_missing_is_computed) {
       const int nothing = open("/dev/null", O_WRONLY);
       dup2(nothing, STDERR_FILENO);
       const std::string in = path("in.####.exr"), out = path("seen.####.exr");
-      execl(SCOTOPIC_PROGRAM, SCOTOPIC_PROGRAM, "apply", in.c_str(), "-o", out.c_str(), "--white-luminance", "1", "--frames", "1-24",
-            "--adaptation", "0.1", "--skip-existing", "--threads", "1", static_cast<char*>(nullptr));
+      execl(SCOTOPIC_PROGRAM, SCOTOPIC_PROGRAM, "apply", in.c_str(), "-o", out.c_str(), "--white-luminance",
+            "1", "--frames", "1-24", "--adaptation", "0.1", "--skip-existing", "--threads", "1",
+            static_cast<char*>(nullptr));
       _exit(127);
     }
     const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
@@ -149,8 +162,10 @@ TEST_F(Resume, after_kill_9_only_what_is_missing_is_computed) {
     found += there;
     recomputed += frames - there;
   }
-  std::printf("killed 5 times in 24 frames: %zu frames found and left, %zu computed, all of the bytes they have undisturbed\n", found,
-              recomputed);
+  std::printf(
+      "killed 5 times in 24 frames: %zu frames found and left, %zu computed, all of the bytes they have "
+      "undisturbed\n",
+      found, recomputed);
   EXPECT_GT(recomputed, 0u);
 }
 

@@ -74,7 +74,8 @@ void write_scaled_picture(const std::string& file, int width, int height, double
       const auto value = static_cast<float>(scale * (0.01 + 0.99 * ((x * 7 + y * 13) % 101) / 100.0));
       row[static_cast<std::size_t>(x)] = Imf::Rgba(value, value * 0.8f, value * 0.5f);
     }
-    out.setFrameBuffer(row.data() - static_cast<std::ptrdiff_t>(y) * width, 1, static_cast<std::size_t>(width));
+    out.setFrameBuffer(row.data() - static_cast<std::ptrdiff_t>(y) * width, 1,
+                       static_cast<std::size_t>(width));
     out.writePixels(1);
   }
 }

@@ -80,7 +80,8 @@ TEST(MalformedSpectra, five_thousand_bands_are_too_many) {
   image.width = image.height = 1;
   for (const std::string& name : names) image.parts[0].push_back({name, {0.5f}, TestChannel::Type::half});
   test::write_exr(folder / "many.exr", image);
-  expect_refused(folder / "many.exr", "bands", ExitCode::limit, "channels 5000 exceeds the limit of 4096 (raise it with --max-channels)");
+  expect_refused(folder / "many.exr", "bands", ExitCode::limit,
+                 "channels 5000 exceeds the limit of 4096 (raise it with --max-channels)");
 }
 
 TEST(MalformedSpectra, files_cut_short_are_refused_at_every_length) {

@@ -92,18 +92,21 @@ TEST(RodsFromColour, known_illuminants_cost_a_few_per_cent_and_unknown_ones_far_
   EXPECT_NEAR(errors_under(surfaces, "hps", RodEstimate::linear, false).bias(), 2.80, 0.40);
 }
 
-// Scotopic luminance from XYZ as seen, not balanced, by Ward Larson, Rushmeier & Piatko (1997): no S/P ratio asked.
+// Scotopic luminance from XYZ as seen, not balanced, by Ward Larson, Rushmeier & Piatko (1997): no S/P ratio
+// asked.
 double ward_larson(const Vec3<double>& xyz) {
   return xyz[1] * (1.33 * (1 + (xyz[1] + xyz[2]) / xyz[0]) - 1.68);
 }
 
 // Errors of what an estimate makes of XYZ as it is, the lamp's colour left in.
 template <typename Estimate>
-Errors errors_unbalanced(const std::vector<test::SceneSpectrum>& surfaces, const std::string& lamp, Estimate estimate) {
+Errors errors_unbalanced(const std::vector<test::SceneSpectrum>& surfaces, const std::string& lamp,
+                         Estimate estimate) {
   Errors errors;
   for (const auto& spectrum : test::lit(surfaces, test::lamp(lamp), 1.0)) {
     const auto truth = test::true_signals(spectrum);
-    const double rods = rod_signal_per_scotopic_luminance() * estimate(Vec3<double>{truth[4], truth[5], truth[6]});
+    const double rods =
+        rod_signal_per_scotopic_luminance() * estimate(Vec3<double>{truth[4], truth[5], truth[6]});
     errors.relative.push_back(rods / truth[index(Signal::rod)] - 1.0);
   }
   return errors;

@@ -98,7 +98,8 @@ TEST(LookFiles, clf_and_ctf_read_back_as_the_chain_that_was_measured) {
   }
 }
 
-/// A locale that writes half as 0,5, made by localedef into a folder of its own; in force for C and C++ while it stands.
+/// A locale that writes half as 0,5, made by localedef into a folder of its own; in force for C and C++ while
+/// it stands.
 class CommaLocale {
  public:
   CommaLocale() : before_(std::locale()) {
@@ -123,8 +124,12 @@ TEST(LookFiles, no_locale_changes_a_byte) {
   const auto texts = [] {
     const Chain chain = look_chain(test::adapted_to(0.05), 17);
     Lut3DStep lut{2, std::vector<double>(24, 0.5), 3};
-    return std::vector<std::string>{xml_text(chain, ChainFormat::clf), xml_text(chain, ChainFormat::ctf), spi3d_text(lut),
-                                    number_text(0.5), fixed_text(12345.5, 3), rounded_text(0.5, 2)};
+    return std::vector<std::string>{xml_text(chain, ChainFormat::clf),
+                                    xml_text(chain, ChainFormat::ctf),
+                                    spi3d_text(lut),
+                                    number_text(0.5),
+                                    fixed_text(12345.5, 3),
+                                    rounded_text(0.5, 2)};
   };
   const std::vector<std::string> expected = texts();
   const CommaLocale locale;
@@ -166,7 +171,8 @@ std::vector<double> numbers_in(const std::string& text) {
     char* end = nullptr;
     const double value = std::strtod(text.c_str() + at, &end);
     const auto stop = static_cast<std::size_t>(end - text.c_str());
-    if (stop > at && (stop == text.size() || std::strchr(" \n<", text[stop]) != nullptr)) out.push_back(value);
+    if (stop > at && (stop == text.size() || std::strchr(" \n<", text[stop]) != nullptr))
+      out.push_back(value);
     at = std::max(at, stop);
   }
   return out;
@@ -221,7 +227,8 @@ TEST(ReadBack, what_a_file_holds_is_what_was_meant_to_the_last_bit) {
   const std::size_t digit = text.find('.', text.find("<LUT3D")) + 2;
   changed[digit] = changed[digit] == '5' ? '6' : '5';
   EXPECT_THROW(require_read_back(folder.write("b.clf", changed), "b.clf", chain), Error);
-  EXPECT_THROW(require_read_back(folder.write("c.clf", text.substr(0, text.size() / 2)), "c.clf", chain), Error);
+  EXPECT_THROW(require_read_back(folder.write("c.clf", text.substr(0, text.size() / 2)), "c.clf", chain),
+               Error);
   EXPECT_THROW(require_lut(folder.path("none.clf"), "none.clf"), Error);
   EXPECT_THROW(require_config("ocio_profile_version: 2\n", "x.ocio"), Error);
 }

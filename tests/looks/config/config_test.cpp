@@ -107,7 +107,8 @@ TEST_F(OwnConfig, every_display_offers_one_row_of_night_views) {
 }
 
 /// Linear light of a display, in working RGB, that a view shows of the pixel.
-Vec3<double> shown(const OCIO::ConstConfigRcPtr& config, const char* display, const char* view, Vec3<float> pixel) {
+Vec3<double> shown(const OCIO::ConstConfigRcPtr& config, const char* display, const char* view,
+                   Vec3<float> pixel) {
   OCIO::DisplayViewTransformRcPtr transform = OCIO::DisplayViewTransform::Create();
   transform->setSrc(linear);
   transform->setDisplay(display);
@@ -127,10 +128,12 @@ TEST_F(OwnConfig, a_night_view_is_the_operator_and_the_display_stage) {
     const char *display, *gamut;
     double peak, tolerance;  // of the peak: 17 nodes a side
   };
-  for (const Row& row : {Row{"sRGB - Display", "rec709", 100, 0.03}, Row{"Rec.1886 Rec.709 - Display", "rec709", 100, 0.03},
-                         Row{"Display P3 - Display", "p3", 100, 0.03}, Row{"Rec.2100-PQ - Display", "rec2020", 1000, 0.06},
-                         Row{"Rec.2100-HLG - Display", "rec2020", 1000, 0.06}})
-    for (const Vec3<float>& pixel : {Vec3<float>{0.02f, 0.05f, 0.2f}, {0.18f, 0.18f, 0.18f}, {60, 2, 0.5f}, {3000, 2000, 900}}) {
+  for (const Row& row :
+       {Row{"sRGB - Display", "rec709", 100, 0.03}, Row{"Rec.1886 Rec.709 - Display", "rec709", 100, 0.03},
+        Row{"Display P3 - Display", "p3", 100, 0.03}, Row{"Rec.2100-PQ - Display", "rec2020", 1000, 0.06},
+        Row{"Rec.2100-HLG - Display", "rec2020", 1000, 0.06}})
+    for (const Vec3<float>& pixel :
+         {Vec3<float>{0.02f, 0.05f, 0.2f}, {0.18f, 0.18f, 0.18f}, {60, 2, 0.5f}, {3000, 2000, 900}}) {
       AppearanceParameters p = test::adapted_to(0.1);
       NightDisplayParameters d;
       d.peak = row.peak;
@@ -138,7 +141,8 @@ TEST_F(OwnConfig, a_night_view_is_the_operator_and_the_display_stage) {
       const Colours expected = exact_night(p, d, {{pixel[0]}, {pixel[1]}, {pixel[2]}});
       const Vec3<double> seen = shown(config_, row.display, night, pixel);
       const double peaks = row.peak / 100;
-      for (const auto& [got, wanted] : {std::pair(seen[0], expected.r[0]), std::pair(seen[1], expected.g[0]), std::pair(seen[2], expected.b[0])})
+      for (const auto& [got, wanted] : {std::pair(seen[0], expected.r[0]), std::pair(seen[1], expected.g[0]),
+                                        std::pair(seen[2], expected.b[0])})
         EXPECT_NEAR(got / peaks, wanted, row.tolerance) << row.display << " " << pixel[0];
     }
 }
@@ -188,7 +192,8 @@ TEST(OwnMark, a_config_counts_as_written_by_bake_until_a_byte_of_it_changes) {
 
 TEST(Manifest, one_more_set_of_files_is_listed_beside_what_was) {
   const std::string a(64, 'a'), b(64, 'b'), c(64, 'c');
-  const std::string older = "# Made by scotopic 1: x\n# Check with: y\n# one\n" + a + "  1.clf\n# two\n" + b + "  2.clf\n";
+  const std::string older =
+      "# Made by scotopic 1: x\n# Check with: y\n# one\n" + a + "  1.clf\n# two\n" + b + "  2.clf\n";
   const std::string fresh = "# Made by scotopic 1: z\n# two again\n" + c + "  2.clf\n";
   EXPECT_EQ(merged_manifest(older, fresh),
             "# Made by scotopic 1: x\n# Check with: y\n# one\n" + a + "  1.clf\n" + fresh);

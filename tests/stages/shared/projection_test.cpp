@@ -78,7 +78,8 @@ TEST(Projection, never_widens_distances) {
   for (int i = 0; i < 100000; ++i) {
     const Vec3<double> a = {normal(random), normal(random), normal(random)};
     const double step = std::exp2(-10.0 * std::abs(normal(random)));
-    const Vec3<double> b = {a[0] + step * normal(random), a[1] + step * normal(random), a[2] + step * normal(random)};
+    const Vec3<double> b = {a[0] + step * normal(random), a[1] + step * normal(random),
+                            a[2] + step * normal(random)};
     ASSERT_LE(distance(projection.nearest(a), projection.nearest(b)), distance(a, b) * (1 + 1e-9));
   }
 }

@@ -43,7 +43,8 @@ AcuityParameters filter_parameters(const DisplayParameters& p) {
 
 BaseLayer::Plan::Plan(const DisplayParameters& p) : light(p), filter(filter_parameters(p)) {}
 
-BaseLayer::BaseLayer(const DisplayParameters& parameters) : plan_(std::make_unique<const Plan>(checked(parameters))) {}
+BaseLayer::BaseLayer(const DisplayParameters& parameters)
+    : plan_(std::make_unique<const Plan>(checked(parameters))) {}
 BaseLayer::~BaseLayer() = default;
 
 int BaseLayer::halo() const noexcept { return plan_->filter.halo(); }
