@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/console.h"
-#include "cli/sequence/recipe.h"
+#include "cli/sequence/provenance.h"
 #include "pipeline/stages/stage_values.h"
 
 namespace scotopic {

@@ -213,12 +213,12 @@ std::string name_list(const std::vector<std::string>& names) {
   return names.size() > most ? out + ", ... (" + std::to_string(names.size()) + " in all)" : out;
 }
 
-std::string channel_list(const std::vector<Picture>& pictures) {
+std::string channel_list(const std::vector<Subimage>& subimages) {
   constexpr std::size_t most = 16;
   std::vector<std::string> names;
-  for (const Picture& picture : pictures)
-    for (const Channel& channel : picture.channels) {
-      const std::string name = (picture.name.empty() ? "" : picture.name + ":") + channel.name;
+  for (const Subimage& subimage : subimages)
+    for (const Channel& channel : subimage.channels) {
+      const std::string name = (subimage.name.empty() ? "" : subimage.name + ":") + channel.name;
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
   std::string out;
@@ -226,15 +226,15 @@ std::string channel_list(const std::vector<Picture>& pictures) {
   return names.size() > most ? out + ", ... (" + std::to_string(names.size()) + " in all)" : out;
 }
 
-std::vector<std::string> colour_layers(const Picture& picture) {
+std::vector<std::string> colour_layers(const Subimage& subimage) {
   std::vector<std::string> out;
-  for (const auto& [name, layer] : layers_of(picture.channels))
+  for (const auto& [name, layer] : layers_of(subimage.channels))
     if (any_in(name, layer).kind != Kind::none) out.push_back(name);
   return out;
 }
 
-ColourChannels find_colour(const Picture& picture, const std::string& layer, const std::string& file) {
-  const std::map<std::string, Layer> layers = layers_of(picture.channels);
+ColourChannels find_colour(const Subimage& subimage, const std::string& layer, const std::string& file) {
+  const std::map<std::string, Layer> layers = layers_of(subimage.channels);
   if (!layer.empty()) {
     const auto found = layers.find(layer);
     return found == layers.end() ? ColourChannels{} : any_in(layer, found->second);

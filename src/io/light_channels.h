@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/picture.h"
+#include "io/subimage.h"
 
 namespace scotopic {
 
@@ -25,13 +25,13 @@ bool looks_spectral(std::string_view channel);
 /// G, B (or red, green, blue; or X, Y, Z); else the only layer that has them and is no data; else the one of
 /// several with the name of a beauty; else L, M, S, R; else a single Y, topmost or the only layer's).
 /// Channels of type uint are none. Several candidates are an Error(usage).
-ColourChannels find_colour(const Picture& picture, const std::string& layer, const std::string& file);
+ColourChannels find_colour(const Subimage& subimage, const std::string& layer, const std::string& file);
 
 /// All layers of a picture that have R, G, B, or L, M, S, R, or Y; "" is the topmost.
-std::vector<std::string> colour_layers(const Picture& picture);
+std::vector<std::string> colour_layers(const Subimage& subimage);
 
 /// Names of all channels of all pictures, each once, at most 16: "R, G, B, diffuse.R, ... (40 in all)".
-std::string channel_list(const std::vector<Picture>& pictures);
+std::string channel_list(const std::vector<Subimage>& subimages);
 
 /// "a, b, c", the first 8 and how many there are.
 std::string name_list(const std::vector<std::string>& names);

@@ -32,9 +32,9 @@ const std::vector<PixelType>& pixel_types_of(const std::string& format) {
 }
 
 std::unique_ptr<PixelSink> open_sink(const std::string& format, OutputFile& file, PixelSource& source,
-                                     const std::vector<OutputPicture>& pictures) {
-  return format == "openexr" ? open_exr_sink(file, source, pictures)
-                             : formats_module(file.path()).open_sink(format, file, source, pictures);
+                                     const std::vector<OutputSubimage>& subimages) {
+  return format == "openexr" ? open_exr_sink(file, source, subimages)
+                             : formats_module(file.path()).open_sink(format, file, source, subimages);
 }
 
 }  // namespace scotopic

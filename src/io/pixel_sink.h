@@ -11,10 +11,10 @@
 
 namespace scotopic {
 
-/// How one picture of the source is written.
-struct OutputPicture {
-  std::size_t source = 0;  ///< index of the picture it is made from
-  Picture picture;         ///< with the channels it will have
+/// How one subimage of the source is written.
+struct OutputSubimage {
+  std::size_t source = 0;  ///< index of the subimage it is made from
+  Subimage subimage;       ///< with the channels it will have
   bool copy = false;       ///< compressed chunks as they are (OpenEXR to OpenEXR)
   /// Set over whatever the source says: what was applied.
   std::vector<Attribute> stamps;
@@ -33,9 +33,9 @@ class PixelSink {
   virtual ~PixelSink() = default;
   /// Whether write() wants the channels of a pixel side by side, all of one type.
   virtual bool interleaved() const = 0;
-  /// Rows of output picture `index`, channels in its order; bands in the order of the source's.
+  /// Rows of output subimage `index`, channels in its order; bands in the order of the source's.
   virtual void write(std::size_t index, const Band& band) = 0;
-  /// An output picture with `copy` set, all of it.
+  /// An output subimage with `copy` set, all of it.
   virtual void copy(std::size_t index) = 0;
   /// Ends the file. It is complete then, and its OutputFile is to be committed.
   virtual void finish() = 0;
@@ -48,13 +48,13 @@ std::string output_format(const std::string& path);
 const std::vector<PixelType>& pixel_types_of(const std::string& format);
 
 /// OpenEXR: header, tiles, order of lines and compression of the source (ZIP in place of a lossy one).
-/// `source` and `file` must outlive the sink. TIFF: one page for each picture; PNG and JPEG: exactly one
-/// picture.
+/// `source` and `file` must outlive the sink. TIFF: one page for each subimage; PNG and JPEG: exactly one
+/// subimage.
 std::unique_ptr<PixelSink> open_sink(const std::string& format, OutputFile& file, PixelSource& source,
-                                     const std::vector<OutputPicture>& pictures);
+                                     const std::vector<OutputSubimage>& subimages);
 
 /// OpenEXR; see open_sink().
 std::unique_ptr<PixelSink> open_exr_sink(OutputFile& file, PixelSource& source,
-                                         const std::vector<OutputPicture>& pictures);
+                                         const std::vector<OutputSubimage>& subimages);
 
 }  // namespace scotopic

@@ -13,15 +13,15 @@ void PixelSource::fail(const std::string& what) const {
 }
 
 void PixelSource::check_limits(const Limits& limits) const {
-  for (const Picture& picture : pictures_) {
-    const std::int64_t width = std::int64_t{picture.data.x1} - picture.data.x0;
-    const std::int64_t height = std::int64_t{picture.data.y1} - picture.data.y0;
+  for (const Subimage& subimage : subimages_) {
+    const std::int64_t width = std::int64_t{subimage.data.x1} - subimage.data.x0;
+    const std::int64_t height = std::int64_t{subimage.data.y1} - subimage.data.y0;
     if (width <= 0 || height <= 0) fail("has no pixels");
     check_limit(file_, "side", std::max(width, height), limits.side, "--max-side");
     check_limit_product(file_, "pixels", width, height, limits.pixels, "--max-pixels");
-    check_limit(file_, "channels", static_cast<std::int64_t>(picture.channels.size()), limits.channels,
+    check_limit(file_, "channels", static_cast<std::int64_t>(subimage.channels.size()), limits.channels,
                 "--max-channels");
-    check_limit(file_, "bytes of memory planned", planned_bytes(picture), limits.memory, "--max-memory");
+    check_limit(file_, "bytes of memory planned", planned_bytes(subimage), limits.memory, "--max-memory");
   }
 }
 

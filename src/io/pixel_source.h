@@ -1,4 +1,4 @@
-// Where pixels come from: any number of pictures, read in bands, so that memory does not grow with the
+// Where pixels come from: any number of subimages, read in bands, so that memory does not grow with the
 // height.
 #pragma once
 
@@ -10,7 +10,7 @@
 #include "base/input_file.h"
 #include "base/limits.h"
 #include "io/light_channels.h"
-#include "io/picture.h"
+#include "io/subimage.h"
 
 namespace scotopic {
 
@@ -24,15 +24,15 @@ class PixelSource {
   /// openexr, tiff, png, hdr, jpeg.
   const std::string& format() const noexcept { return format_; }
   /// All of them, in the file's order; known once it is open.
-  const std::vector<Picture>& pictures() const noexcept { return pictures_; }
+  const std::vector<Subimage>& subimages() const noexcept { return subimages_; }
 
-  /// Rows y0 <= y < y0 + rows of picture `index` (rows in steps of chunk_rows from data.y0, or to the end).
+  /// Rows y0 <= y < y0 + rows of subimage `index` (rows in steps of chunk_rows from data.y0, or to the end).
   virtual void read(std::size_t index, int y0, int rows, Band& band) = 0;
-  /// Where the light of a picture is; see find_colour().
+  /// Where the light of a subimage is; see find_colour().
   virtual ColourChannels colour(std::size_t index, const std::string& layer) const {
-    return find_colour(pictures_[index], layer, file_);
+    return find_colour(subimages_[index], layer, file_);
   }
-  /// What other formats can hold of a picture's metadata.
+  /// What other formats can hold of a subimage's metadata.
   virtual std::vector<Attribute> attributes(std::size_t index) const = 0;
   /// Throws if a file has changed since it was opened: before what was made of it takes its place.
   void require_unchanged() const;
@@ -42,12 +42,12 @@ class PixelSource {
   PixelSource(std::string file, std::string format) : file_(std::move(file)), format_(std::move(format)) {}
   /// Throws Error(input) about this file.
   [[noreturn]] void fail(const std::string& what) const;
-  /// Throws for the first limit that a picture exceeds.
+  /// Throws for the first limit that a subimage exceeds.
   void check_limits(const Limits& limits) const;
   /// To be called before a file is opened.
   void watch(const std::string& file) { watched_.emplace_back(file); }
 
-  std::vector<Picture> pictures_;
+  std::vector<Subimage> subimages_;
 
  private:
   std::string file_;

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "adaptation/ladder.h"
+#include "adaptation/named_adaptations.h"
 #include "base/error.h"
 #include "color/colour_config.h"
 #include "host/controls.h"
@@ -111,7 +111,7 @@ class Definer {
 
 std::vector<std::string> scene_words() {
   std::vector<std::string> out = {"slider", "auto"};
-  for (const LadderStep& step : ladder) out.emplace_back(step.name);
+  for (const NamedAdaptation& step : named_adaptations) out.emplace_back(step.name);
   return out;
 }
 

@@ -3,18 +3,18 @@
 #include <deque>
 
 #include "io/pixels/row_bands.h"
-#include "pipeline/rows/picture_run.h"
+#include "pipeline/rows/subimage_run.h"
 
 namespace scotopic {
 
 std::int64_t rows_to_write(const ImageLayout& layout) {
   std::int64_t rows = 0;
-  for (const OutputPicture& out : layout.outputs) rows += out.copy ? 0 : out.picture.data.height();
+  for (const OutputSubimage& out : layout.outputs) rows += out.copy ? 0 : out.subimage.data.height();
   return rows;
 }
 
-NonFinitePixels write_pictures(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-                               const ImageStages& stages, PixelSink& sink, const Progress& progress) {
+NonFinitePixels write_subimages(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+                                const ImageStages& stages, PixelSink& sink, const Progress& progress) {
   const std::int64_t total = rows_to_write(layout);
   std::int64_t done = 0;
   NonFinitePixels non_finite;
@@ -25,17 +25,17 @@ NonFinitePixels write_pictures(PixelSource& source, const ImageLayout& layout, c
       sink.copy(i);
       continue;
     }
-    const PictureRun run(source, layout, config, stages, layout.outputs[i]);
-    const Picture& picture = source.pictures()[layout.outputs[i].source];
+    const SubimageRun run(source, layout, config, stages, layout.outputs[i]);
+    const Subimage& subimage = source.subimages()[layout.outputs[i].source];
     // OpenEXR wants the rows in the order that its header states, the other formats from the top.
-    const bool descending = picture.descending && layout.format == "openexr";
+    const bool descending = subimage.descending && layout.format == "openexr";
     std::deque<AcuityRows> filters = run.filter_rows(descending, true);
     const auto write = [&](const Band& seen) {
       sink.write(i, seen);
       done += seen.rows;
       if (progress) progress(done, total);
     };
-    each_band(picture, descending, [&](int y0, int rows) {
+    each_band(subimage, descending, [&](int y0, int rows) {
       source.read(layout.outputs[i].source, y0, rows, in);
       if (!filters.empty()) {
         run.run(std::move(in), filters, out, sink.interleaved(), write);
@@ -56,7 +56,7 @@ NonFinitePixels write_pictures(PixelSource& source, const ImageLayout& layout, c
 NonFinitePixels apply_image(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
                             const ImageStages& stages, OutputFile& file, const Progress& progress) {
   const std::unique_ptr<PixelSink> sink = open_sink(layout.format, file, source, layout.outputs);
-  const NonFinitePixels found = write_pictures(source, layout, config, stages, *sink, progress);
+  const NonFinitePixels found = write_subimages(source, layout, config, stages, *sink, progress);
   file.commit();
   return found;
 }

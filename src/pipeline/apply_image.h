@@ -67,8 +67,8 @@ LuminanceHistogram measure_base(PixelSource& source, const ImageLayout& layout, 
                                 const ImageStages& stages);
 
 /// All pictures through the stages into a sink, which is finished then; see apply_image().
-NonFinitePixels write_pictures(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-                               const ImageStages& stages, PixelSink& sink, const Progress& progress);
+NonFinitePixels write_subimages(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+                                const ImageStages& stages, PixelSink& sink, const Progress& progress);
 
 /// Writes the whole output. Where no stage is called for and nothing else changes values either, the file's
 /// own bytes go through. Same bytes for any number of threads. Returns the pixels of the file that are not

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "io/pixels/row_bands.h"
-#include "pipeline/rows/light_path.h"
+#include "pipeline/rows/row_codec.h"
 #include "receptors/receptor_space.h"
 
 namespace scotopic {
@@ -23,25 +23,25 @@ bool is_receptor_name(const std::string& name, const std::string& prefix) {
 class ReceptorRun {
  public:
   ReceptorRun(const PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-              const RodChoice& rods, const OutputPicture& out)
-      : picture_(source.pictures()[out.source]),
+              const RodChoice& rods, const OutputSubimage& out)
+      : picture_(source.subimages()[out.source]),
         light_(*layout.light_of(out.source)),
         out_(out),
         reader_(light_.channels, config, light_.space),
         xyz_from_rgb_(config.xyz_from_working()),
         rods_(rods),
         tally_(picture_) {
-    const std::vector<Channel>& from = source.pictures()[out.source].channels;
-    for (std::size_t o = receptor_names.size(); o < out.picture.channels.size(); ++o)
+    const std::vector<Channel>& from = source.subimages()[out.source].channels;
+    for (std::size_t o = receptor_names.size(); o < out.subimage.channels.size(); ++o)
       for (std::size_t c = 0; c < from.size(); ++c)
         if (!light_.channels.is_colour(c) &&
-            (from[c].name == out.picture.channels[o].name ||
-             (light_.channels.alpha == c && out.picture.channels[o].name == "A")))
+            (from[c].name == out.subimage.channels[o].name ||
+             (light_.channels.alpha == c && out.subimage.channels[o].name == "A")))
           others_.emplace_back(o, c);
   }
 
   void run(const Band& in, Band& out) const {
-    out.allocate_planar(out_.picture.channels, in.y0, in.rows, in.width);
+    out.allocate_planar(out_.subimage.channels, in.y0, in.rows, in.width);
     parallel_rows(in.rows, 8, [&](int first, int last) {
       LightRow light(static_cast<std::size_t>(in.width));
       for (int row = first; row < last; ++row) run_row(in, row, light, out);
@@ -109,9 +109,9 @@ class ReceptorRun {
     }
   }
 
-  const Picture& picture_;
-  const LightPicture& light_;
-  const OutputPicture& out_;
+  const Subimage& picture_;
+  const LightSubimage& light_;
+  const OutputSubimage& out_;
   LightReader reader_;
   Matrix3<double> xyz_from_rgb_;
   RodChoice rods_;
@@ -124,16 +124,17 @@ class ReceptorRun {
 void make_lmsr_layout(ImageLayout& layout, const std::string& output) {
   if (layout.format != "openexr")
     throw Error(ExitCode::usage, output, "receptor signals are written as OpenEXR only");
-  for (OutputPicture& out : layout.outputs) {
+  for (OutputSubimage& out : layout.outputs) {
     if (out.copy) continue;
     const std::string layer = layout.light_of(out.source)->channels.layer;
     const std::string prefix = layer.empty() ? "" : layer + ".";
     std::vector<Channel> channels;
-    for (const char* name : receptor_names) channels.push_back({prefix + name, out.picture.channels[0].type});
-    for (std::size_t c = 3; c < out.picture.channels.size(); ++c)
-      if (!is_receptor_name(out.picture.channels[c].name, prefix))
-        channels.push_back(out.picture.channels[c]);
-    out.picture.channels = std::move(channels);
+    for (const char* name : receptor_names)
+      channels.push_back({prefix + name, out.subimage.channels[0].type});
+    for (std::size_t c = 3; c < out.subimage.channels.size(); ++c)
+      if (!is_receptor_name(out.subimage.channels[c].name, prefix))
+        channels.push_back(out.subimage.channels[c]);
+    out.subimage.channels = std::move(channels);
     out.new_space = true;
     out.new_tags = true;
     out.tags = {};
@@ -154,8 +155,8 @@ NonFinitePixels write_lmsr(PixelSource& source, const ImageLayout& layout, const
       continue;
     }
     const ReceptorRun run(source, layout, config, rods, layout.outputs[i]);
-    const Picture& picture = source.pictures()[layout.outputs[i].source];
-    each_band(picture, picture.descending, [&](int y0, int rows) {
+    const Subimage& subimage = source.subimages()[layout.outputs[i].source];
+    each_band(subimage, subimage.descending, [&](int y0, int rows) {
       source.read(layout.outputs[i].source, y0, rows, in);
       run.run(in, out);
       sink->write(i, out);

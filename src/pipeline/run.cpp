@@ -33,14 +33,14 @@ SceneNumbers meter(OpenImage& image, const ImageSettings& s, Statistics wanted, 
   const bool metered_here = needs_measurement(image.known, image.source->file());
   const bool whole = wanted == Statistics::of_all_pixels || (metered_here && !method.region);
   MeterRequest request{whole, metered_here ? method.region : std::nullopt};
-  if (!request.whole && !request.region) return settle(image.known, 0, image.source->file());
+  if (!request.whole && !request.region) return resolve_numbers(image.known, 0, image.source->file());
   MeasuredLight light =
       measure_light(*image.source, image.layout, s.config, s.choice.parameters, request, frames);
   if (s.non_finite == NonFinite::error) refuse(light.non_finite, image.source->file());
   const double adapted = metered_here ? metered(request.region ? light.region : light.whole, method) : 0;
   out.non_finite = light.non_finite;
   out.statistics = whole ? std::move(light.whole) : std::move(light.region);
-  return settle(image.known, adapted, image.source->file());
+  return resolve_numbers(image.known, adapted, image.source->file());
 }
 
 /// The eye's state at this moment, where light before the scene has left one.
@@ -105,10 +105,10 @@ void see_scene(OpenImage& image, const ImageSettings& s, Statistics wanted, Fram
 /// Of the filter and of the rest, before either is allocated.
 void check_filter_memory(const SpatialFilter& filter, const OpenImage& image, const Limits& limits,
                          std::int64_t frames) {
-  for (const LightPicture& light : image.layout.light) {
-    const Picture& picture = image.source->pictures()[light.index];
+  for (const LightSubimage& light : image.layout.light) {
+    const Subimage& subimage = image.source->subimages()[light.index];
     check_limit(image.source->file(), "bytes of memory planned",
-                frames + planned_bytes(picture) + acuity_bytes(filter, picture, image.layout.wraps),
+                frames + planned_bytes(subimage) + acuity_bytes(filter, subimage, image.layout.wraps),
                 limits.memory, "--max-memory");
   }
 }
@@ -168,8 +168,8 @@ class ImageRun {
 
   void tell_clipped(const OpenImage& image, std::uint64_t clipped) {
     std::uint64_t pixels = 0;
-    for (const LightPicture& light : image.layout.light) {
-      const Window& data = image.source->pictures()[light.index].data;
+    for (const LightSubimage& light : image.layout.light) {
+      const Window& data = image.source->subimages()[light.index].data;
       pixels += static_cast<std::uint64_t>(data.width()) * static_cast<std::uint64_t>(data.height());
     }
     report_.clipped = static_cast<double>(clipped) / static_cast<double>(std::max<std::uint64_t>(pixels, 1));
@@ -270,7 +270,7 @@ class ImageRun {
   }
 
   void describe(const OpenImage& image) {
-    const LightPicture& light = image.layout.light.front();
+    const LightSubimage& light = image.layout.light.front();
     report_.input = job_.input;
     report_.output = job_.output;
     report_.input_space = light.space.name;

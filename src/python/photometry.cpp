@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "adaptation/time/dark_adaptation.h"
-#include "adaptation/ladder.h"
+#include "adaptation/named_adaptations.h"
 #include "adaptation/mesopic.h"
 #include "adaptation/pupil.h"
 #include "adaptation/thresholds.h"
@@ -101,7 +101,7 @@ py::tuple illuminant(const std::string& name) {
 
 std::vector<py::tuple> adaptations() {
   std::vector<py::tuple> out;
-  for (const LadderStep& step : ladder)
+  for (const NamedAdaptation& step : named_adaptations)
     out.push_back(py::make_tuple(std::string(step.name), step.adaptation, std::string(step.scene)));
   return out;
 }

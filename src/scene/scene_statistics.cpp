@@ -56,13 +56,13 @@ void SceneStatistics::add(const SceneStatistics& other) {
   samples.insert(samples.end(), other.samples.begin(), other.samples.end());
 }
 
-SceneMeter::SceneMeter(const AppearanceParameters& p, std::uint64_t pixels_in_picture)
+SceneMeter::SceneMeter(const AppearanceParameters& p, std::uint64_t pixels_in_subimage)
     : xyz_from_rgb_(p.xyz_from_rgb), rods_(p.rods), sp_ratio_(p.sp_ratio) {
   for (std::size_t i = 0; i < 3; ++i) y_row_[i] = static_cast<float>(p.xyz_from_rgb[1][i]);
   const Vec3<double> white = p.xyz_from_rgb * Vec3<double>{1, 1, 1};
   white_scotopic_ = scotopic_luminance_from_xyz<double>(white, rods_, sp_ratio_d65) / white[1];
   // An odd step wanders through the columns whatever the width.
-  sample_every_ = std::max<std::uint64_t>(1, pixels_in_picture / scene_samples) | 1u;
+  sample_every_ = std::max<std::uint64_t>(1, pixels_in_subimage / scene_samples) | 1u;
 }
 
 void SceneMeter::measure(const PixelRows& rows, std::uint64_t first_pixel, SceneStatistics& s) const {

@@ -54,7 +54,7 @@ inline constexpr std::uint64_t scene_samples = 4096;
 class SceneMeter {
  public:
   /// The parameters tell primaries and rods; adaptation and unit are not looked at.
-  SceneMeter(const AppearanceParameters& parameters, std::uint64_t pixels_in_picture);
+  SceneMeter(const AppearanceParameters& parameters, std::uint64_t pixels_in_subimage);
 
   /// Adds `rows` to `statistics`; its first pixel is number `first_pixel` of the picture.
   void measure(const PixelRows& rows, std::uint64_t first_pixel, SceneStatistics& statistics) const;

@@ -16,7 +16,7 @@
 #include "stages/reference.h"
 #include "looks/verify/contenders.h"
 #include "looks/verify/timing.h"
-#include "looks/verify/ways.h"
+#include "looks/verify/evaluators.h"
 #include "pipeline/apply_image.h"
 #include "io/pixels/row_bands.h"
 #include "properties/mpfr_reference.h"

@@ -156,7 +156,7 @@ void read_and_weigh(benchmark::State& state, int compression) {
   for (auto _ : state) {
     const auto source = open_spectral_source(file.path(), options, Limits{});
     Band band;
-    each_band(source->pictures()[0], false, [&](int y0, int count) {
+    each_band(source->subimages()[0], false, [&](int y0, int count) {
       source->read(0, y0, count, band);
       benchmark::DoNotOptimize(band.signals[0].data());
     });

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "looks/lut/ladder.h"
+#include "looks/lut/shipped_looks.h"
 #include "clients/host.h"
 
 namespace OCIO = OCIO_NAMESPACE;
@@ -119,7 +119,7 @@ TEST(Ocioconvert, glsl_on_the_gpu_agrees_with_the_cpu) {
 
 TEST(Ociocheck, is_clean_for_every_luminance) {
   NEEDS("ociocheck");
-  for (const LadderStep& step : ladder) {
+  for (const NamedAdaptation& step : named_adaptations) {
     const Finished result = run("SCOTOPIC_LA=" + adaptation_text(step.adaptation) + " ociocheck --iconfig " +
                                 quoted(config_file()));
     EXPECT_EQ(result.exit_code, 0) << result.said;

@@ -95,8 +95,8 @@ TEST(Reading, a_file_changed_meanwhile_is_no_picture) {
 void read_all(const std::string& file) {
   const auto source = open_source(file, Limits{});
   Band band;
-  for (std::size_t i = 0; i < source->pictures().size(); ++i)
-    each_band(source->pictures()[i], false, [&](int y0, int rows) { source->read(i, y0, rows, band); });
+  for (std::size_t i = 0; i < source->subimages().size(); ++i)
+    each_band(source->subimages()[i], false, [&](int y0, int rows) { source->read(i, y0, rows, band); });
 }
 
 TEST(Reading, a_file_cut_at_any_byte_is_refused) {

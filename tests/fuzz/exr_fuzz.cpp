@@ -81,8 +81,8 @@ Limits small() {
 }
 
 void read_all(PixelSource& source) {
-  for (std::size_t i = 0; i < source.pictures().size() && i < 8; ++i) {
-    const Picture& picture = source.pictures()[i];
+  for (std::size_t i = 0; i < source.subimages().size() && i < 8; ++i) {
+    const Subimage& picture = source.subimages()[i];
     expect(picture.data.width() > 0 && picture.data.height() > 0);
     source.attributes(i);
     if (!picture.readable) continue;

@@ -148,7 +148,7 @@ TEST(ForeignFormats, jpeg_holds_the_colours_and_what_was_done) {
   ImageRequest png;
   png.type = PixelType::uint8;
   run_operator(temporary("in.exr"), temporary("out.png"), 0.5, png);
-  EXPECT_EQ(layout.outputs.front().picture.channels.size(), 3u);
+  EXPECT_EQ(layout.outputs.front().subimage.channels.size(), 3u);
   EXPECT_EQ(layout.output_space.name, "sRGB - Texture");
   const auto in = OIIO::ImageInput::open(temporary("out.jpg"));
   ASSERT_TRUE(in);

@@ -7,7 +7,7 @@
 #include "looks/config/manifest.h"
 #include "looks/config/own_mark.h"
 #include "looks/verify/inspect.h"
-#include "looks/lut/ladder.h"
+#include "looks/lut/shipped_looks.h"
 #include "looks/config/look_set.h"
 #include "looks/support.h"
 
@@ -18,7 +18,7 @@ const std::string root = SCOTOPIC_SOURCE_DIR;
 
 std::vector<LookSpec> shipped_specs(const ColourConfig& own) {
   std::vector<LookSpec> specs;
-  for (const LadderStep& step : ladder) {
+  for (const NamedAdaptation& step : named_adaptations) {
     LookSpec spec;
     spec.parameters = test::adapted_to(step.adaptation);
     spec.space = own.working_space();

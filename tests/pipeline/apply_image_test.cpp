@@ -73,7 +73,7 @@ std::vector<std::pair<std::string, std::vector<TestPart>>> layouts() {
 /// Every channel of every picture, but those named.
 void expect_same_bits(const std::string& a, const std::string& b, const std::vector<std::string>& but = {}) {
   ExrSource source(a, Limits());
-  for (const Picture& p : source.pictures())
+  for (const Picture& p : source.subimages())
     for (const Channel& channel : p.channels) {
       if (std::find(but.begin(), but.end(), channel.name) != but.end()) continue;
       EXPECT_EQ(read_bits(a, p.part, p.level_x, p.level_y, channel.name),
@@ -248,9 +248,9 @@ TEST(ApplyImage, another_type_and_space_can_be_asked_for) {
   request.output_colourspace = "ACEScg";
   run_operator(temporary("in.exr"), temporary("out.exr"), 10, request);
   ExrSource out(temporary("out.exr"), Limits());
-  ASSERT_TRUE(out.pictures()[0].colour.primaries.has_value());
-  EXPECT_EQ(match_primaries(*out.pictures()[0].colour.primaries)->name, "ap1");
-  for (const Channel& channel : out.pictures()[0].channels)
+  ASSERT_TRUE(out.subimages()[0].colour.primaries.has_value());
+  EXPECT_EQ(match_primaries(*out.subimages()[0].colour.primaries)->name, "ap1");
+  for (const Channel& channel : out.subimages()[0].channels)
     EXPECT_EQ(channel.type, channel.name == "A" ? PixelType::half : PixelType::float32) << channel.name;
   // And back: what the file states about itself is enough.
   request.type = PixelType::half;

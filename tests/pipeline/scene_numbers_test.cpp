@@ -10,11 +10,11 @@ namespace {
 TEST(SceneNumbers, the_user_wins_over_the_file_and_the_file_over_the_guess) {
   KnownNumbers known;
   known.adaptation = 0.9;
-  EXPECT_DOUBLE_EQ(settle(known, 0, "f").white_luminance, 5.0);
+  EXPECT_DOUBLE_EQ(resolve_numbers(known, 0, "f").white_luminance, 5.0);
   known.file_unit = 3;
-  EXPECT_DOUBLE_EQ(settle(known, 0, "f").white_luminance, 3.0);
+  EXPECT_DOUBLE_EQ(resolve_numbers(known, 0, "f").white_luminance, 3.0);
   known.white_luminance = 7;
-  EXPECT_DOUBLE_EQ(settle(known, 0, "f").white_luminance, 7.0);
+  EXPECT_DOUBLE_EQ(resolve_numbers(known, 0, "f").white_luminance, 7.0);
 }
 
 TEST(SceneNumbers, an_average_in_image_values_needs_a_unit) {
@@ -22,7 +22,7 @@ TEST(SceneNumbers, an_average_in_image_values_needs_a_unit) {
   KnownNumbers known;
   known.file_unit = 10;
   EXPECT_TRUE(needs_measurement(known, "f"));
-  EXPECT_DOUBLE_EQ(settle(known, 0.25, "f").adaptation, 2.5);
+  EXPECT_DOUBLE_EQ(resolve_numbers(known, 0.25, "f").adaptation, 2.5);
   known.adaptation = 1;
   EXPECT_FALSE(needs_measurement(known, "f"));
 }
@@ -30,7 +30,7 @@ TEST(SceneNumbers, an_average_in_image_values_needs_a_unit) {
 TEST(SceneNumbers, a_black_picture_adapts_to_nothing) {
   KnownNumbers known;
   known.file_unit = 10;
-  EXPECT_THROW(settle(known, 0, "f"), Error);
+  EXPECT_THROW(resolve_numbers(known, 0, "f"), Error);
 }
 
 }  // namespace

@@ -52,8 +52,8 @@ double allowed_in_double(const Strain& strain);
 double allowed_component_error(Way way);
 
 /// A setting with all three ways of computing.
-struct Ways {
-  explicit Ways(const AppearanceParameters& parameters)
+struct Evaluators {
+  explicit Evaluators(const AppearanceParameters& parameters)
       : reference(parameters), single(parameters, Precision::single), dual(parameters, Precision::dual) {}
   AppearanceReference reference;
   AppearanceBatch single, dual;

@@ -78,7 +78,7 @@ void note(Worst& worst, double error, Planes planes, const AppearanceParameters&
 void judge_setting(Random& random, int each, Table& table, Failures& failures, Coverage& coverage) {
   const AppearanceParameters p = draw_parameters(random);
   const Planes planes = draw_planes(random);
-  const Ways way(p);
+  const Evaluators way(p);
   const ExactOperator<long double> exact(p);
   std::vector<Sample> samples;
   for (int regime = 0; regime < regime_count; ++regime)
@@ -198,7 +198,7 @@ TEST(Millions, the_worst_pixels_ever_found_stay_within_their_bounds) {
   const auto kept = read_worst(WORST_CSV);
   ASSERT_GE(kept.size(), static_cast<std::size_t>(regime_count) * ways);
   for (const Kept& k : kept) {
-    const Ways way(k.parameters);
+    const Evaluators way(k.parameters);
     const auto pixel = k.sample.widened(k.planes);
     const Triple<Mp> expected = ExactOperator<Mp>(k.parameters)(pixel);
     Rows single({k.sample}), dual({k.sample});

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "adaptation/ladder.h"
+#include "adaptation/named_adaptations.h"
 #include "color/primaries.h"
 #include "stages/reference.h"
 
@@ -177,7 +177,7 @@ const Pixels& remnants() {
 
 std::vector<SliderValues> settings_of(const ShaderSpec& spec) {
   std::vector<double> adaptations = {1e-5, 4.9, 100};
-  for (const LadderStep& step : ladder) adaptations.push_back(step.adaptation);
+  for (const NamedAdaptation& step : named_adaptations) adaptations.push_back(step.adaptation);
   std::vector<SliderValues> out;
   const auto add = [&](double adaptation, double white, const std::array<double, 4>& strengths,
                        double display) {

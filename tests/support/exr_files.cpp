@@ -112,8 +112,8 @@ std::vector<std::uint32_t> read_bits(const std::string& file, int part, int leve
                                      const std::string& channel) {
   ExrSource source(file, Limits());
   std::vector<std::uint32_t> out;
-  for (std::size_t i = 0; i < source.pictures().size(); ++i) {
-    const Picture& picture = source.pictures()[i];
+  for (std::size_t i = 0; i < source.subimages().size(); ++i) {
+    const Subimage& picture = source.subimages()[i];
     if (picture.part != part || picture.level_x != level_x || picture.level_y != level_y) continue;
     Band band;
     source.read(i, picture.data.y0, picture.data.height(), band);

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "pipeline/apply_image.h"
-#include "io/picture.h"
+#include "io/subimage.h"
 
 namespace scotopic::test {
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "adaptation/time/dark_adaptation.h"
-#include "adaptation/ladder.h"
+#include "adaptation/named_adaptations.h"
 
 namespace scotopic {
 namespace {

@@ -6,7 +6,7 @@
 #include "looks/chain/read_back.h"
 #include "looks/config/manifest.h"
 #include "looks/config/own_mark.h"
-#include "looks/lut/ladder.h"
+#include "looks/lut/shipped_looks.h"
 #include "looks/verify/inspect.h"
 
 namespace scotopic {
@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool has_whole_ladder(const std::vector<LookSpec>& specs) {
-  for (const LadderStep& step : ladder) {
+bool has_all_shipped_looks(const std::vector<LookSpec>& specs) {
+  for (const NamedAdaptation& step : named_adaptations) {
     bool found = false;
     for (const LookSpec& spec : specs) found |= spec.parameters.adaptation == step.adaptation;
     if (!found) return false;
@@ -65,7 +65,7 @@ int bake_config(const BakeOptions& o, const Console& console) {
   require_writable_folder(luts);
   const std::string file = o.new_config + "/config.ocio";
   if (!o.force) refuse_what_is_not_ours(file, luts + "/MANIFEST");
-  LookSet set = bake_set(specs, config, SCOTOPIC_VERSION, has_whole_ladder(specs));
+  LookSet set = bake_set(specs, config, SCOTOPIC_VERSION, has_all_shipped_looks(specs));
   add_nights(set, specs, config, SCOTOPIC_VERSION);
   for (const auto* baked : {&set.looks, &set.night_luts})
     for (const BakedLook& look : *baked) {

@@ -6,7 +6,7 @@
 
 #include "cli/options/values.h"
 #include "looks/chain/read_back.h"
-#include "looks/lut/ladder.h"
+#include "looks/lut/shipped_looks.h"
 #include "looks/lut/look_chain.h"
 
 namespace scotopic {
@@ -21,7 +21,7 @@ std::vector<double> adaptations_of(const BakeOptions& o) {
   std::vector<double> out;
   for (const std::string& text : o.adaptations) {
     if (text == "ladder")
-      for (const LadderStep& step : ladder) out.push_back(step.adaptation);
+      for (const NamedAdaptation& step : named_adaptations) out.push_back(step.adaptation);
     else if (text == "auto")
       fail_value("--adaptation", text, "luminances in cd/m2, or ladder: a LUT does not see the image");
     else

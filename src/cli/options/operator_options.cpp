@@ -110,7 +110,7 @@ OperatorChoice understand(const OperatorOptions& o) {
   p.weight = choice("--weight", o.weight, known(weight_names));
   p.luminance = choice("--luminance", o.luminance, known(luminance_names));
   out.gamut = choice("--gamut", o.gamut, gamuts());
-  out.illuminant = understand_illuminant(o.illuminant);
+  out.illuminant = parse_illuminant(o.illuminant);
   p.sp_ratio = out.illuminant.sp_ratio;
   out.lamp = lamp_white(o.adapt_white, out.illuminant);
   p.rods = choice("--rods", o.rods, known(rod_names));

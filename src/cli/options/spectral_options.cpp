@@ -44,7 +44,7 @@ void add_band_options(CLI::App& verb, BandOptions& o) {
 // lies within.
 constexpr double least_sp_ratio = 1e-3, greatest_sp_ratio = 1e3;
 
-IlluminantChoice understand_illuminant(const std::string& text) {
+IlluminantChoice parse_illuminant(const std::string& text) {
   IlluminantChoice choice;
   choice.name = text;
   if (const std::optional<double> ratio = parse_sp_ratio(text)) {

@@ -18,7 +18,7 @@ struct BandOptions {
 void add_band_options(CLI::App& verb, BandOptions& options);
 
 /// Error(usage) for text that is none of the three, Error(input) for a file that holds no spectrum.
-IlluminantChoice understand_illuminant(const std::string& text);
+IlluminantChoice parse_illuminant(const std::string& text);
 
 /// The illuminant's spectrum is used where the file turns out to hold reflectance. Error(usage) for a value
 /// that is not understood.

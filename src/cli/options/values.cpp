@@ -3,7 +3,7 @@
 #include <cctype>
 #include <optional>
 
-#include "adaptation/ladder.h"
+#include "adaptation/named_adaptations.h"
 
 #include <charconv>
 #include <cmath>
@@ -39,7 +39,7 @@ double adaptation_value(const std::string& text) {
       !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) && text != "nan" && text != "inf";
   if (!word) return luminance_value("--adaptation", text);
   std::vector<std::string> names = {"auto"};
-  for (const LadderStep& step : ladder) names.emplace_back(step.name);
+  for (const NamedAdaptation& step : named_adaptations) names.emplace_back(step.name);
   fail_value("--adaptation", text,
              "a luminance in cd/m2, or a name (explain --adaptations)" + did_you_mean(text, names));
 }

@@ -12,7 +12,7 @@ nlohmann::ordered_json json_of(const ErrorStatistics& e) {
   return {{"mean", e.mean}, {"p99", e.p99}, {"max", e.max}};
 }
 
-nlohmann::ordered_json json_of(const WayError& e) {
+nlohmann::ordered_json json_of(const EvaluatorError& e) {
   nlohmann::ordered_json out;
   out["deltaE00"] = json_of(e.difference);
   out["relativePixel"] = json_of(e.pixel);
@@ -22,7 +22,7 @@ nlohmann::ordered_json json_of(const WayError& e) {
   return out;
 }
 
-std::string error_columns(const std::optional<WayError>& e) {
+std::string error_columns(const std::optional<EvaluatorError>& e) {
   if (!e) return fmt::format("{:>10}{:>10}{:>10}{:>10}", "", "", "", "");
   return fmt::format("{:10.2g}{:10.2g}{:10.2g}{:10.2g}", e->difference.mean, e->difference.p99,
                      e->difference.max, e->pixel.max);
@@ -36,7 +36,7 @@ std::string bytes_text(std::size_t bytes) {
 
 }  // namespace
 
-std::string time_text(const std::vector<WayRow>& rows, const TimeConditions& c) {
+std::string time_text(const std::vector<EvaluatorRow>& rows, const TimeConditions& c) {
   std::string out = fmt::format(
       "{}; OpenColorIO {}; load {:.2f}\n{}, {} pixels, median of {} rounds\n"
       "errors over {}, against double, which is within {:g} of exact arithmetic\n\n",
@@ -44,7 +44,7 @@ std::string time_text(const std::vector<WayRow>& rows, const TimeConditions& c) 
   out += fmt::format("{:<32}{:>10}{:>8}{:>8}{:>10}{:>10}{:>10}{:>10}{:>9}{:>9}\n", "", "ns/pixel", "spread",
                      "memcpy", "dE00 mean", "99 %", "max", "pixel", "tables", "bake s");
   std::string group;
-  for (const WayRow& row : rows) {
+  for (const EvaluatorRow& row : rows) {
     if (row.group != group) out += fmt::format("{}\n", group = row.group);
     out += fmt::format("  {:<30}{:10.3g}{:7.0f}%{:8.3g}{}{:>9}{:>9}{}\n", row.name, row.time.median,
                        100 * row.time.spread(), row.memcpy_ratio, error_columns(row.error),
@@ -54,12 +54,12 @@ std::string time_text(const std::vector<WayRow>& rows, const TimeConditions& c) 
   return out;
 }
 
-std::string time_csv(const std::vector<WayRow>& rows) {
+std::string time_csv(const std::vector<EvaluatorRow>& rows) {
   std::string out =
       "group,way,ns_per_pixel,ns_least,ns_quartile_low,ns_quartile_high,memcpy_ratio,de00_mean,de00_p99,de00_"
       "max,"
       "pixel_mean,pixel_p99,pixel_max,ulps_mean,ulps_p99,ulps_max,bytes,bake_seconds,dominated\n";
-  for (const WayRow& row : rows) {
+  for (const EvaluatorRow& row : rows) {
     out += fmt::format("\"{}\",\"{}\",{:g},{:g},{:g},{:g},{:g}", row.group, row.name, row.time.median,
                        row.time.least, row.time.quartile_low, row.time.quartile_high, row.memcpy_ratio);
     if (!row.error)
@@ -72,7 +72,7 @@ std::string time_csv(const std::vector<WayRow>& rows) {
   return out;
 }
 
-nlohmann::ordered_json time_json(const std::vector<WayRow>& rows, const TimeConditions& c) {
+nlohmann::ordered_json time_json(const std::vector<EvaluatorRow>& rows, const TimeConditions& c) {
   nlohmann::ordered_json out;
   out["machine"] = c.machine;
   out["openColorIO"] = c.ocio;
@@ -82,7 +82,7 @@ nlohmann::ordered_json time_json(const std::vector<WayRow>& rows, const TimeCond
   out["rounds"] = c.rounds;
   out["errorsOver"] = c.colours;
   out["referenceError"] = reference_error;
-  for (const WayRow& row : rows) {
+  for (const EvaluatorRow& row : rows) {
     nlohmann::ordered_json way = {{"group", row.group},
                                   {"way", row.name},
                                   {"nanosecondsPerPixel", row.time.median},

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "looks/verify/way_table.h"
+#include "looks/verify/evaluator_table.h"
 
 namespace scotopic {
 
@@ -20,9 +20,9 @@ struct TimeConditions {
   double load = 0;  ///< the system's, over the last minute
 };
 
-std::string time_text(const std::vector<WayRow>& rows, const TimeConditions& conditions);
+std::string time_text(const std::vector<EvaluatorRow>& rows, const TimeConditions& conditions);
 /// One header, one row a way; numbers with a point, whatever the locale.
-std::string time_csv(const std::vector<WayRow>& rows);
-nlohmann::ordered_json time_json(const std::vector<WayRow>& rows, const TimeConditions& conditions);
+std::string time_csv(const std::vector<EvaluatorRow>& rows);
+nlohmann::ordered_json time_json(const std::vector<EvaluatorRow>& rows, const TimeConditions& conditions);
 
 }  // namespace scotopic

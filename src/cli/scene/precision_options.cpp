@@ -1,7 +1,7 @@
 #include "cli/scene/precision_options.h"
 
 #include "cli/options/values.h"
-#include "looks/verify/way_choice.h"
+#include "looks/verify/evaluator_choice.h"
 
 namespace scotopic {
 
@@ -21,15 +21,15 @@ void add_precision_options(CLI::App& verb, PrecisionOptions& o) {
 }
 
 std::unique_ptr<EvaluatorSource> understand(const PrecisionOptions& o) {
-  WayDemand demand;
+  EvaluatorDemand demand;
   if (!o.max_error.empty())
     demand.max_error =
         number_in("--max-error", o.max_error, 0, 1000, "a colour difference of 0 to 1000 (CIEDE2000)");
   if (!o.budget.empty())
     demand.budget = number_in("--budget", o.budget, 0, 1e9, "nanoseconds per pixel, 0 to 1e9");
-  std::vector<std::pair<std::string, const Way*>> names;
-  for (const Way& way : ways) names.emplace_back(way.name, &way);
-  const Way& named = *choice("--precision", o.precision, names);
+  std::vector<std::pair<std::string, const EvaluatorKind*>> names;
+  for (const EvaluatorKind& kind : evaluator_kinds) names.emplace_back(kind.name, &kind);
+  const EvaluatorKind& named = *choice("--precision", o.precision, names);
   if (demand.max_error || demand.budget) return std::make_unique<ChosenEvaluators>(demand);
   if (named.edge > 0) return std::make_unique<ChosenEvaluators>(named);
   return std::make_unique<ExactEvaluators>(named.name == "double" ? Precision::dual : Precision::single);

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <unordered_map>
 
-#include "cli/sequence/recipe.h"
+#include "cli/sequence/provenance.h"
 #include "io/frame_pattern.h"
 #include "io/atomic/output_file.h"
 

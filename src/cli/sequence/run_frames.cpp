@@ -4,7 +4,7 @@
 
 #include "cli/sequence/in_order.h"
 #include "cli/sequence/progress_line.h"
-#include "cli/sequence/recipe.h"
+#include "cli/sequence/provenance.h"
 #include "io/frame_pattern.h"
 
 namespace scotopic {
@@ -26,19 +26,19 @@ class FrameList {
       : work_(work),
         skip_(options.skip_existing),
         stamped_(stamped || skip_),
-        common_(stamped_ ? common_recipe(verb, work, common.typed) : "") {}
+        common_(stamped_ ? common_provenance(verb, work, common.typed) : "") {}
 
   ImageJob job(const Frame& frame) const {
     ImageJob out;
     out.input = frame.paths.input;
     out.output = frame.paths.output;
     out.moment.frame = frame.number.value_or(0);
-    if (stamped_) out.provenance = recipe_of(common_, frame.paths);
+    if (stamped_) out.provenance = provenance_of(common_, frame.paths);
     return out;
   }
   /// The output is what this job would make.
   bool is_made(const ImageJob& job) const {
-    return skip_ && holds_recipe(job.output, job.provenance, work_.limits());
+    return skip_ && holds_provenance(job.output, job.provenance, work_.limits());
   }
 
  private:

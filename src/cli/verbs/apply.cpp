@@ -3,10 +3,10 @@
 
 #include "cli/report/image_report.h"
 #include "cli/program.h"
-#include "cli/sequence/recipe.h"
+#include "cli/sequence/provenance.h"
 #include "cli/sequence/run_frames.h"
 #include "cli/scene/apply_settings.h"
-#include "cli/sequence/shot.h"
+#include "cli/sequence/shot_adaptation.h"
 #include "pipeline/run.h"
 #include "pipeline/stages/display_stages.h"
 
@@ -71,9 +71,9 @@ int run_apply(const ApplyWords& options) {
   const std::vector<Frame> frames = frames_of(options.frames, options.input, options.output);
   ApplyJob job(options.stages, !options.frames.frames.empty(), console);
   set_threads(options.common.threads);
-  check_shot(options.adaptation_from, job.scene().choice, frames);
+  check_shot_adaptation(options.adaptation_from, job.scene().choice, frames);
   check_places(frames, options.frames);
-  job.follow(settle_shot(options.adaptation_from, job.scene(), frames, options.frames, console));
+  job.follow(resolve_shot_adaptation(options.adaptation_from, job.scene(), frames, options.frames, console));
   if (frames.size() > 1 && job.measures_display())
     console.note(
         "each frame's range is mapped to the display by itself, which can flicker: --display-range holds "
@@ -100,7 +100,7 @@ void add_apply(CLI::App& program, Invocation& invocation) {
   SceneOptions& scene = options->stages.scene;
   scene.appearance.stages.table = invocation.stages;
   add_scene_options(verb, scene);
-  add_shot_options(verb, options->adaptation_from);
+  add_adaptation_from_option(verb, options->adaptation_from);
   add_frame_options(verb, options->frames);
   add_apply_options(verb, options->stages);
   add_input_options(verb, scene.image);

@@ -11,7 +11,7 @@
 #include "looks/chain/chain_text.h"
 #include "looks/chain/read_back.h"
 #include "looks/lut/baked_look.h"
-#include "looks/lut/ladder.h"
+#include "looks/lut/shipped_looks.h"
 
 namespace scotopic {
 namespace {

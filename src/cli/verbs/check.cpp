@@ -6,11 +6,11 @@
 
 #include "looks/config/manifest.h"
 #include "looks/verify/inspect.h"
-#include "looks/lut/ladder.h"
+#include "looks/lut/shipped_looks.h"
 #include "cli/options/image_options.h"
 #include "cli/program.h"
 #include "cli/options/values.h"
-#include "pipeline/rows/light_path.h"
+#include "pipeline/rows/row_codec.h"
 
 namespace scotopic {
 namespace {
@@ -37,8 +37,8 @@ OnImage compare_on_image(const CheckOptions& o, const ColourConfig& config, cons
   const std::unique_ptr<PixelSource> source = open_source(o.picture, o.image.limits);
   const ImageLayout layout = read_layout(*source, config, understand(o.image));
   Comparison comparison(spec.parameters.xyz_from_rgb);
-  const LightPicture& light = layout.light.front();
-  const Picture& picture = source->pictures()[light.index];
+  const LightSubimage& light = layout.light.front();
+  const Subimage& picture = source->subimages()[light.index];
   const LightReader reader(light.channels, config, light.space);
   const int step = band_rows(picture);
   Band band;

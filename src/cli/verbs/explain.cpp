@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "adaptation/ladder.h"
+#include "adaptation/named_adaptations.h"
 #include "cli/verbs/explain_config.h"
 #include "cli/verbs/explain_frames.h"
 #include "cli/report/explain_report.h"
@@ -72,7 +72,7 @@ int run_explain_image(const ExplainOptions& options, const ImageSettings& settin
 
 int list_adaptations(const Console& console) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
-  for (const LadderStep& step : ladder) {
+  for (const NamedAdaptation& step : named_adaptations) {
     if (!console.json()) fmt::print("{:<10} {:>6g} cd/m2  {}\n", step.name, step.adaptation, step.scene);
     all.push_back({{"name", step.name}, {"adaptation", step.adaptation}, {"scene", step.scene}});
   }

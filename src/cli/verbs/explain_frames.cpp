@@ -12,7 +12,7 @@
 #include "cli/sequence/in_order.h"
 #include "cli/sequence/progress_line.h"
 #include "cli/sequence/run_frames.h"
-#include "cli/sequence/shot.h"
+#include "cli/sequence/shot_adaptation.h"
 #include "pipeline/run.h"
 
 namespace scotopic {
@@ -100,7 +100,7 @@ std::string trace_text(const AdaptationTrace& trace) {
 }
 
 void print(const std::vector<FrameLight>& frames, const std::vector<AdaptationTrace>& traces,
-           const ShotLight& shot, const std::vector<std::string>& effects,
+           const ShotAdaptation& shot, const std::vector<std::string>& effects,
            const std::vector<PlanChange>& changes) {
   constexpr int width = 30;
   const double span = std::log(shot.greatest / shot.least);
@@ -131,7 +131,7 @@ void print_csv(const std::vector<FrameLight>& frames) {
 }
 
 nlohmann::ordered_json result_of(const std::vector<FrameLight>& frames,
-                                 const std::vector<AdaptationTrace>& traces, const ShotLight& shot,
+                                 const std::vector<AdaptationTrace>& traces, const ShotAdaptation& shot,
                                  const std::vector<std::string>& effects,
                                  const std::vector<PlanChange>& changes) {
   nlohmann::ordered_json out;
@@ -194,7 +194,7 @@ int explain_frames(const ImageSettings& settings, const std::vector<Frame>& fram
   if (lights.empty()) return static_cast<int>(failure->code());
   const std::vector<AdaptationTrace> traces = traces_of(lights, settings, frame_rate);
   for (std::size_t i = 0; i < lights.size(); ++i) set_time(lights[i], traces[i], settings);
-  const ShotLight shot = shot_light(adaptations);
+  const ShotAdaptation shot = shot_adaptation(adaptations);
   SceneNumbers of_shot = lights.front().numbers;
   of_shot.adaptation = shot.median;
   // As apply has it, which then looks at no frame's statistics.

@@ -4,7 +4,7 @@
 #include "cli/options/image_options.h"
 #include "cli/report/image_report.h"
 #include "cli/program.h"
-#include "cli/sequence/recipe.h"
+#include "cli/sequence/provenance.h"
 #include "cli/sequence/run_frames.h"
 #include "cli/options/spectral_options.h"
 #include "cli/options/values.h"
@@ -35,7 +35,7 @@ struct Unit {
   std::string source = "unknown: values are relative";
 };
 
-std::vector<Attribute> stamps_of(const Unit& unit, const std::string& rods, const std::string& recipe) {
+std::vector<Attribute> stamps_of(const Unit& unit, const std::string& rods, const std::string& provenance) {
   std::vector<Attribute> stamps = {{"scotopic:version", std::string(SCOTOPIC_VERSION)},
                                    {"scotopic:receptors", std::string(receptor_set)},
                                    {"scotopic:rods", rods}};
@@ -43,17 +43,17 @@ std::vector<Attribute> stamps_of(const Unit& unit, const std::string& rods, cons
     stamps.push_back({"scotopic:lmsrUnit", *unit.cdm2});
     stamps.push_back({"whiteLuminance", *unit.cdm2});
   }
-  if (!recipe.empty()) stamps.push_back({provenance_attribute, recipe});
+  if (!provenance.empty()) stamps.push_back({provenance_attribute, provenance});
   return stamps;
 }
 
-RodChoice understand_rods(const LmsrOptions& o, const IlluminantChoice& illuminant) {
+RodChoice resolve_rods(const LmsrOptions& o, const IlluminantChoice& illuminant) {
   return {choice<RodEstimate>("--rods", o.rods,
                               {{"linear", RodEstimate::linear}, {"quadratic", RodEstimate::quadratic}}),
           illuminant.sp_ratio};
 }
 
-SpectralOptions understand_spectral(const LmsrOptions& o, const IlluminantChoice& illuminant) {
+SpectralOptions resolve_spectral(const LmsrOptions& o, const IlluminantChoice& illuminant) {
   SpectralOptions out = understand(o.bands, illuminant, o.image.layer);
   out.accumulation = choice<Accumulation>("--precision", o.accumulation,
                                           {{"double", Accumulation::dual}, {"float", Accumulation::single}});
@@ -61,7 +61,7 @@ SpectralOptions understand_spectral(const LmsrOptions& o, const IlluminantChoice
   return out;
 }
 
-std::optional<double> understand_unit(const LmsrOptions& o) {
+std::optional<double> resolve_unit(const LmsrOptions& o) {
   if (o.white_luminance.empty()) return std::nullopt;
   return luminance_value("--white-luminance", o.white_luminance);
 }
@@ -80,7 +80,7 @@ class LmsrJob : public FrameJob {
   nlohmann::ordered_json run(const ImageJob& job, const Console& console) override;
 
  private:
-  Unit unit_of(const Picture& picture, ColourChannels::Kind kind) const;
+  Unit unit_of(const Subimage& subimage, ColourChannels::Kind kind) const;
   std::string rods_of(ColourChannels::Kind kind) const;
 
   IlluminantChoice illuminant_;
@@ -94,21 +94,21 @@ class LmsrJob : public FrameJob {
 };
 
 LmsrJob::LmsrJob(const LmsrOptions& o)
-    : illuminant_(understand_illuminant(o.illuminant)),
-      rods_(understand_rods(o, illuminant_)),
+    : illuminant_(parse_illuminant(o.illuminant)),
+      rods_(resolve_rods(o, illuminant_)),
       rods_name_(o.rods),
-      spectral_(understand_spectral(o, illuminant_)),
+      spectral_(resolve_spectral(o, illuminant_)),
       request_(understand(o.image)),
       limits_(o.image.limits),
-      white_luminance_(understand_unit(o)),
+      white_luminance_(resolve_unit(o)),
       config_(config_in_force(o.image)) {
   check_spaces(request_, config_);
 }
 
 /// cd/m2 that a signal of 1 stands for.
-Unit LmsrJob::unit_of(const Picture& picture, ColourChannels::Kind kind) const {
+Unit LmsrJob::unit_of(const Subimage& subimage, ColourChannels::Kind kind) const {
   if (white_luminance_) return {white_luminance_, "--white-luminance"};
-  const FileUnit unit = file_unit(picture, kind);
+  const FileUnit unit = file_unit(subimage, kind);
   return unit.luminance ? Unit{unit.luminance, unit.source} : Unit{};
 }
 
@@ -124,9 +124,9 @@ nlohmann::ordered_json LmsrJob::run(const ImageJob& job, const Console& console)
   ImageLayout layout = plan_layout(*source, job.output, config_, request_);
   make_lmsr_layout(layout, job.output);
 
-  const LightPicture& light = layout.light.front();
+  const LightSubimage& light = layout.light.front();
   const std::string rods = rods_of(light.channels.kind);
-  const Unit unit = unit_of(source->pictures()[light.index], light.channels.kind);
+  const Unit unit = unit_of(source->subimages()[light.index], light.channels.kind);
   for (const std::string& note : layout.notes) console.note(source->file() + ": " + note);
   console.note(unit.cdm2
                    ? fmt::format("{}: signal 1 is {:.4g} cd/m2 ({}); rods {}", source->file(), *unit.cdm2,

@@ -21,7 +21,7 @@
 #include "cli/report/time_report.h"
 #include "cli/options/values.h"
 #include "io/pixels/row_bands.h"
-#include "pipeline/rows/light_path.h"
+#include "pipeline/rows/row_codec.h"
 
 namespace scotopic {
 namespace {
@@ -48,8 +48,8 @@ struct Subject {
 };
 
 TimedPicture read_picture(PixelSource& source, const ImageLayout& layout, const ColourConfig& config) {
-  const LightPicture& light = layout.light.front();
-  const Picture& picture = source.pictures()[light.index];
+  const LightSubimage& light = layout.light.front();
+  const Subimage& picture = source.subimages()[light.index];
   const LightReader reader(light.channels, config, light.space);
   TimedPicture out;
   out.width = static_cast<std::size_t>(picture.data.width());
@@ -95,7 +95,7 @@ Subject subject_of_image(const TimeOptions& options, const OperatorChoice& choic
                          const Console& console) {
   const std::unique_ptr<PixelSource> source = open_source(options.input, options.image.limits);
   const ImageLayout layout = read_layout(*source, config, understand(options.image));
-  const Window& w = source->pictures()[layout.light.front().index].data;
+  const Window& w = source->subimages()[layout.light.front().index].data;
   check_limit(source->file(), "bytes of memory planned", 12 * std::int64_t{w.width()} * w.height(),
               options.image.limits.memory, "--max-memory");
   const KnownNumbers known = known_numbers(choice, *source, layout, console.notes());
@@ -103,7 +103,7 @@ Subject subject_of_image(const TimeOptions& options, const OperatorChoice& choic
   if (needs_measurement(known, source->file()))
     log_average = metered(measure_image(*source, layout, config, choice.parameters, choice.metering.region),
                           choice.metering);
-  const SceneNumbers numbers = settle(known, log_average, source->file());
+  const SceneNumbers numbers = resolve_numbers(known, log_average, source->file());
   console.note(source->file() + ": " + describe(numbers));
   Subject out;
   out.parameters = parameters_of(choice, numbers.adaptation, numbers.white_luminance);
@@ -167,7 +167,8 @@ int run_time(const TimeOptions& options) {
   c.ocio = OCIO_NAMESPACE::GetVersion();
   c.pixels = picture.pixels.size();
   c.rounds = rounds;
-  const std::vector<WayRow> rows = time_contenders(contenders, c.pixels, rounds, progress_line(options));
+  const std::vector<EvaluatorRow> rows =
+      time_contenders(contenders, c.pixels, rounds, progress_line(options));
   c.load = system_load();
   if (options.csv)
     std::fputs(time_csv(rows).c_str(), stdout);

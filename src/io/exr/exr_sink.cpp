@@ -106,7 +106,7 @@ void set_foreign_attributes(Imf::Header& header, const std::vector<Attribute>& a
 }
 
 /// Compressions that change pixels would undo the promise that an untouched one keeps its bits, and they
-/// spend their precision on daylight: such pictures are written with ZIP.
+/// spend their precision on daylight: such subimages are written with ZIP.
 void make_lossless(Imf::Header& header) {
   const Imf::Compression c = header.compression();
   const bool lossy = c == Imf::B44_COMPRESSION || c == Imf::B44A_COMPRESSION || c == Imf::DWAA_COMPRESSION ||
@@ -116,9 +116,9 @@ void make_lossless(Imf::Header& header) {
   header.erase("dwaCompressionLevel");
 }
 
-Imf::Header make_header(const PixelSource& source, const Picture& picture, std::size_t index) {
+Imf::Header make_header(const PixelSource& source, const Subimage& subimage, std::size_t index) {
   const auto box = [](const Window& w) { return Imath::Box2i({w.x0, w.y0}, {w.x1 - 1, w.y1 - 1}); };
-  Imf::Header header(box(picture.display), box(picture.data));
+  Imf::Header header(box(subimage.display), box(subimage.data));
   header.setType(Imf::SCANLINEIMAGE);
   header.compression() = Imf::ZIP_COMPRESSION;
   set_foreign_attributes(header, source.attributes(index));
@@ -127,12 +127,13 @@ Imf::Header make_header(const PixelSource& source, const Picture& picture, std::
 
 class ExrSink : public PixelSink {
  public:
-  ExrSink(OutputFile& file, PixelSource& source, const std::vector<OutputPicture>& pictures)
-      : file_(file), stream_(file), source_(dynamic_cast<ExrSource*>(&source)), pictures_(pictures) {
-    // Resolutions of one part are pictures of their own, but share a header.
+  ExrSink(OutputFile& file, PixelSource& source, const std::vector<OutputSubimage>& subimages)
+      : file_(file), stream_(file), source_(dynamic_cast<ExrSource*>(&source)), subimages_(subimages) {
+    // Resolutions of one part are subimages of their own, but share a header.
     std::map<int, int> part_of_source;
-    for (const OutputPicture& out : pictures_) {
-      const auto [found, added] = part_of_source.emplace(out.picture.part, static_cast<int>(headers_.size()));
+    for (const OutputSubimage& out : subimages_) {
+      const auto [found, added] =
+          part_of_source.emplace(out.subimage.part, static_cast<int>(headers_.size()));
       parts_.push_back(found->second);
       if (added) headers_.push_back(header_of(source, out));
     }
@@ -146,11 +147,11 @@ class ExrSink : public PixelSink {
 
   void write(std::size_t index, const Band& band) override {
     guarded([&] {
-      const Picture& picture = pictures_[index].picture;
-      const Imf::FrameBuffer frame = frame_buffer(picture.channels, band, picture.data.x0);
+      const Subimage& subimage = subimages_[index].subimage;
+      const Imf::FrameBuffer frame = frame_buffer(subimage.channels, band, subimage.data.x0);
       const int part = parts_[index];
       if (headers_[static_cast<std::size_t>(part)].hasTileDescription()) {
-        write_tiles(picture, frame, part, band);
+        write_tiles(subimage, frame, part, band);
       } else {
         Imf::OutputPart out(*exr_, part);
         out.setFrameBuffer(frame);
@@ -161,7 +162,7 @@ class ExrSink : public PixelSink {
 
   void copy(std::size_t index) override {
     guarded([&] {
-      const int from = pictures_[index].picture.part;
+      const int from = subimages_[index].subimage.part;
       const Imf::Header& header = source_->header(from);
       const std::string type = header.hasType() ? header.type() : "";
       if (type == Imf::DEEPSCANLINE)
@@ -187,11 +188,11 @@ class ExrSink : public PixelSink {
   }
 
  private:
-  static Imf::Header header_of(const PixelSource& source, const OutputPicture& out) {
+  static Imf::Header header_of(const PixelSource& source, const OutputSubimage& out) {
     const auto* exr = dynamic_cast<const ExrSource*>(&source);
-    if (exr && out.copy) return exr->header(out.picture.part);
-    Imf::Header header = exr ? exr->header(out.picture.part) : make_header(source, out.picture, out.source);
-    set_channels(header, out.picture.channels);
+    if (exr && out.copy) return exr->header(out.subimage.part);
+    Imf::Header header = exr ? exr->header(out.subimage.part) : make_header(source, out.subimage, out.source);
+    set_channels(header, out.subimage.channels);
     make_lossless(header);
     erase_if(header, describes_pixels);
     if (out.new_tags) {
@@ -217,12 +218,12 @@ class ExrSink : public PixelSink {
     Imf::addChromaticities(header, Imf::Chromaticities(v2f(p.red), v2f(p.green), v2f(p.blue), v2f(p.white)));
   }
 
-  void write_tiles(const Picture& picture, const Imf::FrameBuffer& frame, int part, const Band& band) {
+  void write_tiles(const Subimage& subimage, const Imf::FrameBuffer& frame, int part, const Band& band) {
     Imf::TiledOutputPart out(*exr_, part);
     out.setFrameBuffer(frame);
-    const int first = (band.y0 - picture.data.y0) / picture.chunk_rows;
-    const int last = (band.y0 + band.rows - 1 - picture.data.y0) / picture.chunk_rows;
-    out.writeTiles(0, out.numXTiles(picture.level_x) - 1, first, last, picture.level_x, picture.level_y);
+    const int first = (band.y0 - subimage.data.y0) / subimage.chunk_rows;
+    const int last = (band.y0 + band.rows - 1 - subimage.data.y0) / subimage.chunk_rows;
+    out.writeTiles(0, out.numXTiles(subimage.level_x) - 1, first, last, subimage.level_x, subimage.level_y);
   }
 
   template <typename Out, typename In>
@@ -250,8 +251,8 @@ class ExrSink : public PixelSink {
   OutputFile& file_;
   ExrStream stream_;
   ExrSource* source_;
-  std::vector<OutputPicture> pictures_;
-  std::vector<int> parts_;  // of the output, one for each picture
+  std::vector<OutputSubimage> subimages_;
+  std::vector<int> parts_;  // of the output, one for each subimage
   std::vector<Imf::Header> headers_;
   std::unique_ptr<Imf::MultiPartOutputFile> exr_;
 };
@@ -259,8 +260,8 @@ class ExrSink : public PixelSink {
 }  // namespace
 
 std::unique_ptr<PixelSink> open_exr_sink(OutputFile& file, PixelSource& source,
-                                         const std::vector<OutputPicture>& pictures) {
-  return std::make_unique<ExrSink>(file, source, pictures);
+                                         const std::vector<OutputSubimage>& subimages) {
+  return std::make_unique<ExrSink>(file, source, subimages);
 }
 
 }  // namespace scotopic

@@ -153,7 +153,7 @@ ExrSource::ExrSource(const std::string& file, const Limits& limits) : PixelSourc
     Imf::Header::setMaxTileSize(side, side);
     exr_ = open_exr(file);
     for (int part = 0; part < exr_->parts(); ++part) {
-      add_pictures(part);
+      add_subimages(part);
       check_limits(limits);
       if (!exr_->partComplete(part)) fail("is truncated: it was not written to its end");
     }
@@ -166,94 +166,94 @@ ExrSource::ExrSource(const std::string& file, const Limits& limits) : PixelSourc
   }
 }
 
-void ExrSource::add_pictures(int part) {
+void ExrSource::add_subimages(int part) {
   const Imf::Header& header = exr_->header(part);
-  Picture picture;
-  picture.part = part;
-  picture.name = header.hasName() ? header.name() : "";
-  picture.pixel_aspect = usable_aspect(static_cast<double>(header.pixelAspectRatio()));
-  picture.view = header.hasView() ? header.view() : "";
-  picture.data = window_of(header.dataWindow());
-  picture.display = window_of(header.displayWindow());
-  picture.readable = !is_deep(header);
-  picture.colour = colour_tags(header, exr_->header(0));
-  picture.white_luminance = float_attribute(header, "whiteLuminance");
-  picture.lmsr_unit = float_attribute(header, "scotopic:lmsrUnit");
-  picture.chunk_rows = rows_compressed_together(header);
-  picture.descending = header.lineOrder() == Imf::DECREASING_Y;
+  Subimage subimage;
+  subimage.part = part;
+  subimage.name = header.hasName() ? header.name() : "";
+  subimage.pixel_aspect = usable_aspect(static_cast<double>(header.pixelAspectRatio()));
+  subimage.view = header.hasView() ? header.view() : "";
+  subimage.data = window_of(header.dataWindow());
+  subimage.display = window_of(header.displayWindow());
+  subimage.readable = !is_deep(header);
+  subimage.colour = colour_tags(header, exr_->header(0));
+  subimage.white_luminance = float_attribute(header, "whiteLuminance");
+  subimage.lmsr_unit = float_attribute(header, "scotopic:lmsrUnit");
+  subimage.chunk_rows = rows_compressed_together(header);
+  subimage.descending = header.lineOrder() == Imf::DECREASING_Y;
   for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
-    picture.channels.push_back({it.name(), pixel_type(it.channel().type)});
-    if (it.channel().xSampling != 1 || it.channel().ySampling != 1) picture.readable = false;
+    subimage.channels.push_back({it.name(), pixel_type(it.channel().type)});
+    if (it.channel().xSampling != 1 || it.channel().ySampling != 1) subimage.readable = false;
   }
-  if (is_luminance_chroma(header) && exr_->parts() == 1) return add_luminance_chroma(picture);
-  if (!is_tiled(header) || !picture.readable) {
-    pictures_.push_back(picture);
+  if (is_luminance_chroma(header) && exr_->parts() == 1) return add_luminance_chroma(subimage);
+  if (!is_tiled(header) || !subimage.readable) {
+    subimages_.push_back(subimage);
     return;
   }
   const Imf::TileDescription& tiles = header.tileDescription();
-  picture.chunk_rows = static_cast<int>(tiles.ySize);
+  subimage.chunk_rows = static_cast<int>(tiles.ySize);
   auto& tiled = tiled_[part] = std::make_unique<Imf::TiledInputPart>(*exr_, part);
   const bool ripmap = tiles.mode == Imf::RIPMAP_LEVELS;
   for (int ly = 0; ly < tiled->numYLevels(); ++ly) {
     for (int lx = 0; lx < (ripmap ? tiled->numXLevels() : 1); ++lx) {
-      picture.level_x = ripmap ? lx : ly;
-      picture.level_y = ly;
-      picture.data = level_window(header, tiled->levelWidth(picture.level_x), tiled->levelHeight(ly));
-      pictures_.push_back(picture);
+      subimage.level_x = ripmap ? lx : ly;
+      subimage.level_y = ly;
+      subimage.data = level_window(header, tiled->levelWidth(subimage.level_x), tiled->levelHeight(ly));
+      subimages_.push_back(subimage);
     }
   }
 }
 
 /// Colour that is stored as luminance and subsampled chroma: OpenEXR itself makes R, G, B of it, in half.
-void ExrSource::add_luminance_chroma(Picture picture) {
+void ExrSource::add_luminance_chroma(Subimage subimage) {
   rgba_ = std::make_unique<Imf::RgbaInputFile>(file().c_str());
-  picture.readable = true;
-  picture.chunk_rows = 1;
-  picture.channels.clear();
-  for (const char* name : {"R", "G", "B"}) picture.channels.push_back({name, PixelType::half});
-  if ((rgba_->channels() & Imf::WRITE_A) != 0) picture.channels.push_back({"A", PixelType::half});
-  picture.notes.push_back(
+  subimage.readable = true;
+  subimage.chunk_rows = 1;
+  subimage.channels.clear();
+  for (const char* name : {"R", "G", "B"}) subimage.channels.push_back({name, PixelType::half});
+  if ((rgba_->channels() & Imf::WRITE_A) != 0) subimage.channels.push_back({"A", PixelType::half});
+  subimage.notes.push_back(
       "luminance and chroma (Y, RY, BY) become R, G, B of half; its other channels are left out");
-  pictures_.push_back(picture);
+  subimages_.push_back(subimage);
 }
 
-void ExrSource::read_luminance_chroma(const Picture& picture, int y0, int rows, Band& band) {
-  const auto width = static_cast<std::size_t>(picture.data.width());
+void ExrSource::read_luminance_chroma(const Subimage& subimage, int y0, int rows, Band& band) {
+  const auto width = static_cast<std::size_t>(subimage.data.width());
   std::vector<Imf::Rgba> pixels(width * static_cast<std::size_t>(rows));
   rgba_->setFrameBuffer(
-      pixels.data() - picture.data.x0 - static_cast<std::ptrdiff_t>(y0) * picture.data.width(), 1, width);
+      pixels.data() - subimage.data.x0 - static_cast<std::ptrdiff_t>(y0) * subimage.data.width(), 1, width);
   rgba_->readPixels(y0, y0 + rows - 1);
-  for (std::size_t c = 0; c < picture.channels.size(); ++c)
+  for (std::size_t c = 0; c < subimage.channels.size(); ++c)
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       const Imath::half values[4] = {pixels[i].r, pixels[i].g, pixels[i].b, pixels[i].a};
       std::memcpy(band.channels[c].data + 2 * i, &values[c], 2);
     }
 }
 
-void ExrSource::read_scanlines(const Picture& picture, const Imf::FrameBuffer& frame, int y0, int rows) {
-  Imf::InputPart part(*exr_, picture.part);
+void ExrSource::read_scanlines(const Subimage& subimage, const Imf::FrameBuffer& frame, int y0, int rows) {
+  Imf::InputPart part(*exr_, subimage.part);
   part.setFrameBuffer(frame);
   part.readPixels(y0, y0 + rows - 1);
 }
 
-void ExrSource::read_tiles(const Picture& picture, const Imf::FrameBuffer& frame, int y0, int rows) {
-  Imf::TiledInputPart& part = *tiled_.at(picture.part);
+void ExrSource::read_tiles(const Subimage& subimage, const Imf::FrameBuffer& frame, int y0, int rows) {
+  Imf::TiledInputPart& part = *tiled_.at(subimage.part);
   part.setFrameBuffer(frame);
-  const int first = (y0 - picture.data.y0) / picture.chunk_rows;
-  const int last = (y0 + rows - 1 - picture.data.y0) / picture.chunk_rows;
-  part.readTiles(0, part.numXTiles(picture.level_x) - 1, first, last, picture.level_x, picture.level_y);
+  const int first = (y0 - subimage.data.y0) / subimage.chunk_rows;
+  const int last = (y0 + rows - 1 - subimage.data.y0) / subimage.chunk_rows;
+  part.readTiles(0, part.numXTiles(subimage.level_x) - 1, first, last, subimage.level_x, subimage.level_y);
 }
 
 void ExrSource::read(std::size_t index, int y0, int rows, Band& band) {
-  const Picture& picture = pictures_[index];
-  band.allocate_planar(picture.channels, y0, rows, picture.data.width());
+  const Subimage& subimage = subimages_[index];
+  band.allocate_planar(subimage.channels, y0, rows, subimage.data.width());
   try {
-    if (rgba_) return read_luminance_chroma(picture, y0, rows, band);
-    const Imf::FrameBuffer frame = frame_buffer(picture.channels, band, picture.data.x0);
-    if (tiled_.count(picture.part))
-      read_tiles(picture, frame, y0, rows);
+    if (rgba_) return read_luminance_chroma(subimage, y0, rows, band);
+    const Imf::FrameBuffer frame = frame_buffer(subimage.channels, band, subimage.data.x0);
+    if (tiled_.count(subimage.part))
+      read_tiles(subimage, frame, y0, rows);
     else
-      read_scanlines(picture, frame, y0, rows);
+      read_scanlines(subimage, frame, y0, rows);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
@@ -263,7 +263,7 @@ void ExrSource::read(std::size_t index, int y0, int rows, Band& band) {
 
 std::vector<Attribute> ExrSource::attributes(std::size_t index) const {
   std::vector<Attribute> out;
-  const Imf::Header& header = exr_->header(pictures_[index].part);
+  const Imf::Header& header = exr_->header(subimages_[index].part);
   for (auto it = header.begin(); it != header.end(); ++it) {
     const Imf::Attribute& attribute = it.attribute();
     if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute)) {

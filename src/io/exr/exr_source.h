@@ -14,7 +14,7 @@
 
 namespace scotopic {
 
-/// A picture for each part and resolution; scanlines or tiles.
+/// A subimage for each part and resolution; scanlines or tiles.
 class ExrSource : public PixelSource {
  public:
   /// Reads the headers. Throws Error(input) or Error(limit).
@@ -31,11 +31,11 @@ class ExrSource : public PixelSource {
   int parts() const { return exr_->parts(); }
 
  private:
-  void add_pictures(int part);
-  void add_luminance_chroma(Picture picture);
-  void read_luminance_chroma(const Picture& picture, int y0, int rows, Band& band);
-  void read_scanlines(const Picture& picture, const Imf::FrameBuffer& frame, int y0, int rows);
-  void read_tiles(const Picture& picture, const Imf::FrameBuffer& frame, int y0, int rows);
+  void add_subimages(int part);
+  void add_luminance_chroma(Subimage subimage);
+  void read_luminance_chroma(const Subimage& subimage, int y0, int rows, Band& band);
+  void read_scanlines(const Subimage& subimage, const Imf::FrameBuffer& frame, int y0, int rows);
+  void read_tiles(const Subimage& subimage, const Imf::FrameBuffer& frame, int y0, int rows);
 
   std::unique_ptr<Imf::MultiPartInputFile> exr_;
   std::unique_ptr<Imf::RgbaInputFile> rgba_;  // of luminance and chroma

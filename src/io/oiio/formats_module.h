@@ -15,7 +15,7 @@ struct FormatsModule {
   std::unique_ptr<PixelSource> (*open_source)(const std::string& file, const std::string& format,
                                               const Limits& limits);
   std::unique_ptr<PixelSink> (*open_sink)(const std::string& format, OutputFile& file, PixelSource& source,
-                                          const std::vector<OutputPicture>& pictures);
+                                          const std::vector<OutputSubimage>& subimages);
 };
 
 /// Loads it once, from the program's run path or the folder it was installed to. Error(internal), for `file`,

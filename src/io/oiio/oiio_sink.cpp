@@ -96,9 +96,9 @@ bool has_exif(const OIIO::ImageSpec& spec) {
 class OiioSink : public PixelSink {
  public:
   OiioSink(std::string format, OutputFile& file, PixelSource& source,
-           const std::vector<OutputPicture>& pictures)
-      : format_(std::move(format)), file_(file), proxy_(file), pictures_(pictures) {
-    for (const OutputPicture& picture : pictures_) specs_.push_back(spec_of(source, picture));
+           const std::vector<OutputSubimage>& subimages)
+      : format_(std::move(format)), file_(file), proxy_(file), subimages_(subimages) {
+    for (const OutputSubimage& subimage : subimages_) specs_.push_back(spec_of(source, subimage));
     output_ = OIIO::ImageOutput::create(format_);
     if (!output_) fail("OpenImageIO here has no " + format_ + " writer");
     // OpenImageIO appends pages only to what it can open by name; and where it writes Exif tags into a TIFF
@@ -108,7 +108,7 @@ class OiioSink : public PixelSink {
     if (by_name() && memory_ < 0) fail(std::strerror(errno));
     name_ = by_name() ? "/proc/self/fd/" + std::to_string(memory_) : file_.path();
     if (!by_name()) output_->set_ioproxy(&proxy_);
-    hashes_.resize(pictures_.size());
+    hashes_.resize(subimages_.size());
   }
   ~OiioSink() override {
     if (output_) output_->close();
@@ -122,7 +122,7 @@ class OiioSink : public PixelSink {
   void write(std::size_t index, const Band& band) override {
     if (!opened_ || index != current_) open(index);
     const OIIO::ImageSpec& spec = specs_[index];
-    const int y0 = band.y0 - pictures_[index].picture.data.y0 + spec.y, y1 = y0 + band.rows;
+    const int y0 = band.y0 - subimages_[index].subimage.data.y0 + spec.y, y1 = y0 + band.rows;
     const bool ok = spec.tile_width ? output_->write_tiles(spec.x, spec.x + spec.width, y0, y1, 0, 1,
                                                            spec.format, band.storage.data())
                                     : output_->write_scanlines(y0, y1, 0, spec.format, band.storage.data());
@@ -144,7 +144,7 @@ class OiioSink : public PixelSink {
   }
 
  private:
-  bool by_name() const { return pictures_.size() > 1 || (format_ == "tiff" && has_exif(specs_.front())); }
+  bool by_name() const { return subimages_.size() > 1 || (format_ == "tiff" && has_exif(specs_.front())); }
 
   void copy_from_memory() {
     std::vector<std::byte> piece(std::size_t{1} << 20);
@@ -165,7 +165,7 @@ class OiioSink : public PixelSink {
     OIIO::ImageSpec spec, hints;
     hints.attribute("oiio:UnassociatedAlpha", 1);
     if (!input || !input->open(name_, spec, hints)) fail("it cannot be read back");
-    for (std::size_t page = 0; page < pictures_.size(); ++page)
+    for (std::size_t page = 0; page < subimages_.size(); ++page)
       if (!same_page(*input, page))
         fail("page " + std::to_string(page + 1) + " reads back as something else");
   }
@@ -202,11 +202,11 @@ class OiioSink : public PixelSink {
     current_ = index;
   }
 
-  OIIO::ImageSpec spec_of(const PixelSource& source, const OutputPicture& out) const {
+  OIIO::ImageSpec spec_of(const PixelSource& source, const OutputSubimage& out) const {
     const auto* oiio = dynamic_cast<const OiioSource*>(&source);
-    const Picture& picture = out.picture;
+    const Subimage& subimage = out.subimage;
     OIIO::ImageSpec spec = oiio ? oiio->spec(out.source) : OIIO::ImageSpec();
-    set_geometry(spec, picture);
+    set_geometry(spec, subimage);
     if (!oiio) {
       spec.attribute("compression", "zip");
       for (const Attribute& a : source.attributes(out.source))
@@ -230,7 +230,7 @@ class OiioSink : public PixelSink {
     if (out.new_tags && out.tags.srgb) spec.attribute("oiio:ColorSpace", "sRGB");
     if (out.new_tags && out.tags.linear) spec.attribute("oiio:ColorSpace", "Linear");
     if (needs_profile(out.tags)) set_profile(spec, *out.tags.icc);
-    spec.attribute("oiio:UnassociatedAlpha", picture.unassociated_alpha ? 1 : 0);
+    spec.attribute("oiio:UnassociatedAlpha", subimage.unassociated_alpha ? 1 : 0);
     set_stamps(spec, format_, out.stamps);
     return spec;
   }
@@ -247,7 +247,7 @@ class OiioSink : public PixelSink {
     if (!tags.icc) return false;
     const NamedPrimaries* known = tags.linear && tags.primaries ? match_primaries(*tags.primaries) : nullptr;
     const bool usual = known && known->name == "rec709";
-    return !usual || !(format_ == "png" || !is_integer(pictures_.front().picture.channels.front().type));
+    return !usual || !(format_ == "png" || !is_integer(subimages_.front().subimage.channels.front().type));
   }
 
   static void set_profile(OIIO::ImageSpec& spec, const std::vector<std::byte>& profile) {
@@ -258,16 +258,16 @@ class OiioSink : public PixelSink {
                    profile.data());
   }
 
-  void set_geometry(OIIO::ImageSpec& spec, const Picture& picture) const {
-    spec.x = picture.data.x0;
-    spec.y = picture.data.y0;
-    spec.width = picture.data.width();
-    spec.height = picture.data.height();
+  void set_geometry(OIIO::ImageSpec& spec, const Subimage& subimage) const {
+    spec.x = subimage.data.x0;
+    spec.y = subimage.data.y0;
+    spec.width = subimage.data.width();
+    spec.height = subimage.data.height();
     spec.depth = 1;
-    spec.full_x = picture.display.x0;
-    spec.full_y = picture.display.y0;
-    spec.full_width = picture.display.width();
-    spec.full_height = picture.display.height();
+    spec.full_x = subimage.display.x0;
+    spec.full_y = subimage.display.y0;
+    spec.full_width = subimage.display.width();
+    spec.full_height = subimage.display.height();
     spec.full_depth = 1;
     // PNG and JPEG have no place for an offset, TIFF none for a negative one.
     if (format_ != "tiff" || spec.x < 0 || spec.y < 0) {
@@ -275,15 +275,15 @@ class OiioSink : public PixelSink {
       spec.full_width = spec.width;
       spec.full_height = spec.height;
     }
-    spec.nchannels = static_cast<int>(picture.channels.size());
+    spec.nchannels = static_cast<int>(subimage.channels.size());
     spec.channelformats.clear();
     spec.channelnames.clear();
     spec.alpha_channel = -1;
-    for (const Channel& channel : picture.channels) {
+    for (const Channel& channel : subimage.channels) {
       if (channel.name == "A") spec.alpha_channel = static_cast<int>(spec.channelnames.size());
       spec.channelnames.push_back(channel.name);
     }
-    spec.set_format(oiio_type(picture.channels.front().type));
+    spec.set_format(oiio_type(subimage.channels.front().type));
   }
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -297,7 +297,7 @@ class OiioSink : public PixelSink {
   std::string name_;
   OutputFile& file_;
   Proxy proxy_;
-  std::vector<OutputPicture> pictures_;
+  std::vector<OutputSubimage> subimages_;
   std::vector<OIIO::ImageSpec> specs_;
   int memory_ = -1;                    // a file of several pages, until it is whole
   std::vector<std::uint64_t> hashes_;  // of the pixels of each page
@@ -309,8 +309,8 @@ class OiioSink : public PixelSink {
 }  // namespace
 
 std::unique_ptr<PixelSink> open_oiio_sink(const std::string& format, OutputFile& file, PixelSource& source,
-                                          const std::vector<OutputPicture>& pictures) {
-  return std::make_unique<OiioSink>(format, file, source, pictures);
+                                          const std::vector<OutputSubimage>& subimages) {
+  return std::make_unique<OiioSink>(format, file, source, subimages);
 }
 
 }  // namespace scotopic

@@ -7,6 +7,6 @@ namespace scotopic {
 
 /// TIFF or PNG; see open_sink().
 std::unique_ptr<PixelSink> open_oiio_sink(const std::string& format, OutputFile& file, PixelSource& source,
-                                          const std::vector<OutputPicture>& pictures);
+                                          const std::vector<OutputSubimage>& subimages);
 
 }  // namespace scotopic

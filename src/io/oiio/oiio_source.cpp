@@ -92,69 +92,70 @@ OiioSource::OiioSource(const std::string& file, const std::string& format, const
   scans_ = scan_image(file, format);
   if (!input_->open(file, spec, hints)) fail("is not a valid " + format + " file: " + input_->geterror());
   for (int page = 0; input_->seek_subimage(page, 0); ++page) {
-    add_picture(page, input_->spec());
+    add_subimage(page, input_->spec());
     check_limits(limits);
   }
   (void)input_->geterror();  // "no such page" ended the loop
 }
 
-void OiioSource::add_picture(int page, const OIIO::ImageSpec& spec) {
-  Picture picture;
-  picture.part = page;
+void OiioSource::add_subimage(int page, const OIIO::ImageSpec& spec) {
+  Subimage subimage;
+  subimage.part = page;
   const std::optional<PixelType> type = pixel_type(spec.format);
   if (!type || !spec.channelformats.empty())
     fail("holds pixels of type " + std::string(spec.format.c_str()) +
          "; uint8, uint16, half and float can be read");
   if (spec.depth > 1) fail("is a volume, not an image");
-  picture.data = {spec.x, spec.y, spec.x + spec.width, spec.y + spec.height};
-  picture.display = {spec.full_x, spec.full_y, spec.full_x + spec.full_width, spec.full_y + spec.full_height};
-  for (int c = 0; c < spec.nchannels; ++c) picture.channels.push_back({spec.channel_name(c), *type});
-  name_grey(picture.channels);
+  subimage.data = {spec.x, spec.y, spec.x + spec.width, spec.y + spec.height};
+  subimage.display = {spec.full_x, spec.full_y, spec.full_x + spec.full_width,
+                      spec.full_y + spec.full_height};
+  for (int c = 0; c < spec.nchannels; ++c) subimage.channels.push_back({spec.channel_name(c), *type});
+  name_grey(subimage.channels);
   // Strips need not be met: OpenImageIO buffers them.
-  picture.chunk_rows = spec.tile_width ? spec.tile_height : 1;
-  picture.library_bytes = bytes_held_by_oiio(spec);
-  picture.unassociated_alpha = spec.get_int_attribute("oiio:UnassociatedAlpha", 0) != 0;
-  picture.white_luminance = float_attribute(spec, "whiteLuminance");
-  scans_.resize(std::max(scans_.size(), pictures_.size() + 1));
-  ImageScan& scan = scans_[pictures_.size()];
+  subimage.chunk_rows = spec.tile_width ? spec.tile_height : 1;
+  subimage.library_bytes = bytes_held_by_oiio(spec);
+  subimage.unassociated_alpha = spec.get_int_attribute("oiio:UnassociatedAlpha", 0) != 0;
+  subimage.white_luminance = float_attribute(spec, "whiteLuminance");
+  scans_.resize(std::max(scans_.size(), subimages_.size() + 1));
+  ImageScan& scan = scans_[subimages_.size()];
   // Of Radiance's order of pixels OpenImageIO tells by the same name.
   scan.orientation = spec.get_int_attribute("Orientation", scan.orientation);
   if (scan.orientation < 1 || scan.orientation > 8) scan.orientation = 1;
-  picture.pixel_aspect =
+  subimage.pixel_aspect =
       usable_aspect(static_cast<double>(spec.get_float_attribute("PixelAspectRatio", 1.0f)));
-  if (turns(scan.orientation)) picture.pixel_aspect = 1 / picture.pixel_aspect;
-  set_colour(picture, scan);
-  set_upright(picture, scan);
-  pictures_.push_back(picture);
+  if (turns(scan.orientation)) subimage.pixel_aspect = 1 / subimage.pixel_aspect;
+  set_colour(subimage, scan);
+  set_upright(subimage, scan);
+  subimages_.push_back(subimage);
   specs_.push_back(spec);
 }
 
-void OiioSource::set_colour(Picture& picture, ImageScan& scan) const {
+void OiioSource::set_colour(Subimage& subimage, ImageScan& scan) const {
   if (scan.xyz)
-    for (std::size_t c = 0; c < 3 && c < picture.channels.size(); ++c)
-      picture.channels[c].name = std::string(1, "XYZ"[c]);
-  picture.colour = scan.colour;
+    for (std::size_t c = 0; c < 3 && c < subimage.channels.size(); ++c)
+      subimage.channels[c].name = std::string(1, "XYZ"[c]);
+  subimage.colour = scan.colour;
   if (scan.gain_map)
-    picture.notes.push_back("its gain map is left out: the picture is the rendition for SDR displays");
+    subimage.notes.push_back("its gain map is left out: the picture is the rendition for SDR displays");
   if (scan.exposure != 1 || scan.correction != std::array<double, 3>{1, 1, 1})
-    picture.notes.push_back("values are divided by its EXPOSURE and COLORCORR: they are light again");
+    subimage.notes.push_back("values are divided by its EXPOSURE and COLORCORR: they are light again");
 }
 
 /// A page that is to be turned is read whole, into memory that is planned for.
-void OiioSource::set_upright(Picture& picture, const ImageScan& scan) const {
+void OiioSource::set_upright(Subimage& subimage, const ImageScan& scan) const {
   if (scan.orientation == 1) return;
-  const int width = picture.data.width(), height = picture.data.height();
-  picture.library_bytes += static_cast<std::int64_t>(row_bytes(picture)) * height;
-  picture.data = turns(scan.orientation) ? Window{0, 0, height, width} : Window{0, 0, width, height};
-  picture.display = picture.data;
-  picture.chunk_rows = 1;
-  picture.notes.push_back(std::string("is ") + orientation_words(scan.orientation) +
-                          " to be upright, as its orientation has it");
+  const int width = subimage.data.width(), height = subimage.data.height();
+  subimage.library_bytes += static_cast<std::int64_t>(row_bytes(subimage)) * height;
+  subimage.data = turns(scan.orientation) ? Window{0, 0, height, width} : Window{0, 0, width, height};
+  subimage.display = subimage.data;
+  subimage.chunk_rows = 1;
+  subimage.notes.push_back(std::string("is ") + orientation_words(scan.orientation) +
+                           " to be upright, as its orientation has it");
 }
 
 void OiioSource::read_stored(std::size_t index, int y0, int rows, std::byte* out) {
   const OIIO::ImageSpec& spec = specs_[index];
-  const int page = pictures_[index].part;
+  const int page = subimages_[index].part;
   const StderrHeld held;
   const bool ok =
       spec.tile_width
@@ -189,8 +190,8 @@ void OiioSource::correct_exposure(const ImageScan& scan, Band& band) const {
 }
 
 void OiioSource::read(std::size_t index, int y0, int rows, Band& band) {
-  const Picture& picture = pictures_[index];
-  band.allocate_interleaved(picture.channels, y0, rows, picture.data.width());
+  const Subimage& subimage = subimages_[index];
+  band.allocate_interleaved(subimage.channels, y0, rows, subimage.data.width());
   if (scans_[index].orientation == 1)
     read_stored(index, y0, rows, band.storage.data());
   else

@@ -11,7 +11,7 @@
 
 namespace scotopic {
 
-/// One picture for each page (TIFF), else one; upright, whichever way it is stored.
+/// One subimage for each page (TIFF), else one; upright, whichever way it is stored.
 class OiioSource : public PixelSource {
  public:
   /// Reads the header. Throws Error(input) or Error(limit).
@@ -20,19 +20,19 @@ class OiioSource : public PixelSource {
   void read(std::size_t index, int y0, int rows, Band& band) override;
   std::vector<Attribute> attributes(std::size_t index) const override;
 
-  /// What OpenImageIO says of a picture.
+  /// What OpenImageIO says of a subimage.
   const OIIO::ImageSpec& spec(std::size_t index) const { return specs_[index]; }
 
  private:
-  void add_picture(int page, const OIIO::ImageSpec& spec);
-  void set_colour(Picture& picture, ImageScan& scan) const;
-  void set_upright(Picture& picture, const ImageScan& scan) const;
+  void add_subimage(int page, const OIIO::ImageSpec& spec);
+  void set_colour(Subimage& subimage, ImageScan& scan) const;
+  void set_upright(Subimage& subimage, const ImageScan& scan) const;
   void read_stored(std::size_t index, int y0, int rows, std::byte* out);
   void read_upright(std::size_t index, int y0, int rows, std::byte* out);
   void correct_exposure(const ImageScan& scan, Band& band) const;
 
   std::unique_ptr<OIIO::ImageInput> input_;
-  std::vector<OIIO::ImageSpec> specs_;  // one for each picture
+  std::vector<OIIO::ImageSpec> specs_;  // one for each subimage
   std::vector<ImageScan> scans_;        // likewise
   StoredPage page_;                     // the one that is being turned
   std::size_t page_index_ = SIZE_MAX;

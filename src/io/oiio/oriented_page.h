@@ -15,7 +15,7 @@ struct StoredPage {
   std::size_t width = 0, height = 0, pixel = 0;
 };
 
-/// Rows y0 <= y < y0 + rows of the upright picture; orientation 1 to 8 (CIPA DC-008, 4.6.5).
+/// Rows y0 <= y < y0 + rows of the upright subimage; orientation 1 to 8 (CIPA DC-008, 4.6.5).
 void copy_upright(const StoredPage& page, int orientation, std::size_t y0, std::size_t rows, std::byte* out);
 
 /// "mirrored", "turned by 180 degrees", ...: what was done to make it upright.

@@ -1,4 +1,4 @@
-// Going over a picture in bands, and over a band's rows on all threads.
+// Going over a subimage in bands, and over a band's rows on all threads.
 #pragma once
 
 #include <OpenImageIO/parallel.h>
@@ -9,13 +9,13 @@
 #include <exception>
 #include <mutex>
 
-#include "io/picture.h"
+#include "io/subimage.h"
 
 namespace scotopic {
 
 struct ImageLayout;
 
-/// Rows of all pictures that are computed, not copied.
+/// Rows of all subimages that are computed, not copied.
 std::int64_t rows_to_write(const ImageLayout& layout);
 
 /// Calls `work(first, last)` for the rows of a band on all threads; exceptions reach the caller.
@@ -40,14 +40,14 @@ void parallel_rows(int rows, int chunk_rows, Work work) {
   if (failure) std::rethrow_exception(failure);
 }
 
-/// Calls `use(y0, rows)` for the bands of a picture, the last one first if `descending`.
+/// Calls `use(y0, rows)` for the bands of a subimage, the last one first if `descending`.
 template <typename Use>
-void each_band(const Picture& picture, bool descending, Use use) {
-  const int step = band_rows(picture);
-  const int count = (picture.data.height() + step - 1) / step;
+void each_band(const Subimage& subimage, bool descending, Use use) {
+  const int step = band_rows(subimage);
+  const int count = (subimage.data.height() + step - 1) / step;
   for (int i = 0; i < count; ++i) {
-    const int y0 = picture.data.y0 + (descending ? count - 1 - i : i) * step;
-    use(y0, std::min(step, picture.data.y1 - y0));
+    const int y0 = subimage.data.y0 + (descending ? count - 1 - i : i) * step;
+    use(y0, std::min(step, subimage.data.y1 - y0));
   }
 }
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/picture.h"
+#include "io/subimage.h"
 #include "receptors/spectral_weights.h"
 
 namespace scotopic {

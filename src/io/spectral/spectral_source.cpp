@@ -69,7 +69,7 @@ class ExrSpectralSource final : public SpectralSource {
   void weigh(const SpectralOptions& options);
   SpectralWeights weights(const BandGrid& grid, const SpectralOptions& options);
   void keep_weighed_bands(SpectralWeights weights);
-  void describe_picture(const Limits& limits);
+  void describe_subimage(const Limits& limits);
   void list_other_channels();
   void read_rows(int y0, int rows, Band& band);
   void weigh_rows(int first, int rows, Band& band) const;
@@ -230,25 +230,25 @@ void ExrSpectralSource::list_other_channels() {
   }
 }
 
-void ExrSpectralSource::describe_picture(const Limits& limits) {
-  Picture picture;
+void ExrSpectralSource::describe_subimage(const Limits& limits) {
+  Subimage subimage;
   const Imf::Header& first = header_of(bands_.front());
-  picture.data = window(first.dataWindow());
-  picture.display = window(first.displayWindow());
+  subimage.data = window(first.dataWindow());
+  subimage.display = window(first.displayWindow());
   list_other_channels();
-  for (const Place& place : passed_) picture.channels.push_back({place.channel, pixel_type(place.type)});
+  for (const Place& place : passed_) subimage.channels.push_back({place.channel, pixel_type(place.type)});
   for (const Place& place : bands_)
-    picture.chunk_rows = std::max(picture.chunk_rows, rows_compressed_together(header_of(place)));
-  if (report_.kind != SpectralKind::reflective) picture.white_luminance = 1.0;
-  picture.computed_bytes = signals_ * sizeof(float);
+    subimage.chunk_rows = std::max(subimage.chunk_rows, rows_compressed_together(header_of(place)));
+  if (report_.kind != SpectralKind::reflective) subimage.white_luminance = 1.0;
+  subimage.computed_bytes = signals_ * sizeof(float);
   band_type_ = std::all_of(bands_.begin(), bands_.end(), [](const Place& p) { return p.type == Imf::HALF; })
                    ? Imf::HALF
                    : Imf::FLOAT;
   if (!integrator_) band_type_ = Imf::FLOAT;
-  pictures_.push_back(picture);
+  subimages_.push_back(subimage);
   check_limits(limits);
-  const auto row = static_cast<std::int64_t>(bands_.size() * sizeof(float)) * picture.data.width();
-  check_limit(file(), "bytes of memory planned", planned_bytes(picture) + row * picture.chunk_rows,
+  const auto row = static_cast<std::int64_t>(bands_.size() * sizeof(float)) * subimage.data.width();
+  check_limit(file(), "bytes of memory planned", planned_bytes(subimage) + row * subimage.chunk_rows,
               limits.memory, "--max-memory");
 }
 
@@ -263,7 +263,7 @@ bool ExrSpectralSource::open(const SpectralOptions& options, const Limits& limit
                 "--max-bands");
     check_places();
     weigh(options);
-    describe_picture(limits);
+    describe_subimage(limits);
     return true;
   } catch (const Error&) {
     throw;
@@ -288,7 +288,7 @@ std::vector<Attribute> ExrSpectralSource::attributes(std::size_t) const {
 }
 
 void ExrSpectralSource::read_rows(int y0, int rows, Band& band) {
-  const Window& window = pictures_[0].data;
+  const Window& window = subimages_[0].data;
   const std::size_t size = band_type_ == Imf::HALF ? 2 : 4;
   const std::size_t line = size * static_cast<std::size_t>(window.width());
   buffer_.resize(line * bands_.size() * static_cast<std::size_t>(rows));
@@ -364,12 +364,12 @@ void ExrSpectralSource::weigh_rows(int first, int rows, Band& band) const {
 }
 
 void ExrSpectralSource::read(std::size_t, int y0, int rows, Band& band) {
-  const Picture& picture = pictures_[0];
-  band.allocate_planar(picture.channels, y0, rows, picture.data.width());
+  const Subimage& subimage = subimages_[0];
+  band.allocate_planar(subimage.channels, y0, rows, subimage.data.width());
   const auto pixels = static_cast<std::size_t>(rows) * static_cast<std::size_t>(band.width);
   for (std::size_t s = 0; s < signals_; ++s) band.signals[s].resize(pixels);
   const std::size_t row = bands_.size() * sizeof(float) * static_cast<std::size_t>(band.width);
-  const auto chunk = static_cast<std::size_t>(picture.chunk_rows);
+  const auto chunk = static_cast<std::size_t>(subimage.chunk_rows);
   const int step = static_cast<int>(chunk * std::max<std::size_t>(1, bytes_at_once / (row * chunk)));
   for (int y = y0; y < y0 + rows; y += step) {
     const int count = std::min(step, y0 + rows - y);

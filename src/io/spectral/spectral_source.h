@@ -40,7 +40,7 @@ struct SpectralReport {
   std::vector<std::string> notes;
 };
 
-/// A spectral OpenEXR file: one picture of ColourChannels::Kind::computed; bands and the preview R, G, B do
+/// A spectral OpenEXR file: one subimage of ColourChannels::Kind::computed; bands and the preview R, G, B do
 /// not appear among its channels, all others do. Signals are absolute (white_luminance 1 cd/m2) for radiance,
 /// per cd/m2 of a perfect white for reflectance.
 class SpectralSource : public PixelSource {

@@ -9,7 +9,7 @@
 #include "adaptation/thresholds.h"
 #include "color/primaries.h"
 #include "looks/lut/look_chain.h"
-#include "looks/lut/ladder.h"
+#include "looks/lut/shipped_looks.h"
 #include "looks/lut/look_matrix.h"
 #include "base/digest.h"
 

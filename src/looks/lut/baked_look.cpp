@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "looks/cube/baked_cube.h"
-#include "looks/lut/ladder.h"
+#include "looks/lut/shipped_looks.h"
 #include "looks/lut/look_chain.h"
 #include "looks/lut/look_matrix.h"
 #include "looks/chain/number_text.h"

@@ -74,23 +74,23 @@ Contender scalar_contender(const AppearanceParameters& p, const Place& place, co
   Contender out;
   out.row.group = "operator";
   out.row.name = "double, scalar";
-  out.row.error = way_error(p, apply, colours);
+  out.row.error = evaluator_error(p, apply, colours);
   out.run = timed_rows(place, std::max<std::size_t>(1, place->picture.rows() / slow_share), apply);
   return out;
 }
 
-Contender way_contender(const AppearanceParameters& p, const Way& way, const Place& place,
-                        const Colours& colours) {
-  const PreparedWay prepared = prepare_way(p, way);
+Contender evaluator_contender(const AppearanceParameters& p, const EvaluatorKind& kind, const Place& place,
+                              const Colours& colours) {
+  const PreparedEvaluator prepared = prepare_evaluator(p, kind);
   Contender out;
   out.row.group = "operator";
-  out.row.name = way.name;
-  out.row.error = way_error(p, prepared.apply, colours);
+  out.row.name = kind.name;
+  out.row.error = evaluator_error(p, prepared.apply, colours);
   out.row.seconds = prepared.seconds;
   out.row.bytes = prepared.bytes;
   const std::size_t rows = place->picture.rows();
   out.run =
-      timed_rows(place, way.edge > 0 ? std::max<std::size_t>(1, rows / slow_share) : rows, prepared.apply);
+      timed_rows(place, kind.edge > 0 ? std::max<std::size_t>(1, rows / slow_share) : rows, prepared.apply);
   return out;
 }
 
@@ -132,7 +132,7 @@ Contender half_contender(const AppearanceParameters& p, const TimedPicture& pict
   Contender out;
   out.row.group = "files";
   out.row.name = "float, half planes in and out";
-  out.row.error = way_error(p, HalfPlanes::colours(compared.from), HalfPlanes::colours(compared.work));
+  out.row.error = evaluator_error(p, HalfPlanes::colours(compared.from), HalfPlanes::colours(compared.work));
   const auto planes = std::make_shared<HalfPlanes>(picture.pixels);
   out.run = {[planes] { planes->restore(); }, [planes, batch] { planes->apply(*batch); },
              picture.pixels.size()};
@@ -157,7 +157,7 @@ Contender rgba_contender(const AppearanceParameters& p, const TimedPicture& pict
   Contender out;
   out.row.group = "files";
   out.row.name = "float, RGBA float";
-  out.row.error = way_error(p, colours, got);
+  out.row.error = evaluator_error(p, colours, got);
   out.run = {[from, work] { *work = *from; },
              [work, batch] { batch->apply_rgba(work->data(), work->size() / 4); }, picture.pixels.size()};
   return out;
@@ -205,13 +205,14 @@ std::vector<Contender> operator_contenders(const AppearanceParameters& p, const 
                                            const Colours& colours, int threads) {
   const auto place = std::make_shared<Workplace>(picture);
   std::vector<Contender> out = {scalar_contender(p, place, colours)};
-  for (const Way& way : ways) out.push_back(way_contender(p, way, place, colours));
+  for (const EvaluatorKind& kind : evaluator_kinds)
+    out.push_back(evaluator_contender(p, kind, place, colours));
   for (const char* name : {"double", "float"}) {
     if (threads < 2) break;
-    Contender c = way_contender(p, way_named(name), place, colours);
+    Contender c = evaluator_contender(p, evaluator_named(name), place, colours);
     c.row.group = fmt::format("operator, {} threads", threads);
     c.row.name = fmt::format("{}, {} threads", name, threads);
-    c.run = threaded_rows(place, prepare_way(p, way_named(name)).apply);
+    c.run = threaded_rows(place, prepare_evaluator(p, evaluator_named(name)).apply);
     out.push_back(std::move(c));
   }
   out.push_back(rgba_contender(p, picture, colours));
@@ -226,7 +227,7 @@ std::vector<Contender> rod_contenders(const AppearanceParameters& p, const Timed
   for (const RodEstimate rods : {RodEstimate::linear, RodEstimate::quadratic}) {
     AppearanceParameters q = p;
     q.rods = rods;
-    Contender c = way_contender(q, way_named("float"), place, colours);
+    Contender c = evaluator_contender(q, evaluator_named("float"), place, colours);
     // Two models: neither can dominate the other.
     c.row.group = rods == RodEstimate::linear ? "linear rods" : "quadratic rods";
     c.row.name = "float, " + c.row.group;

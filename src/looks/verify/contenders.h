@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "looks/verify/way_table.h"
+#include "looks/verify/evaluator_table.h"
 
 namespace scotopic {
 

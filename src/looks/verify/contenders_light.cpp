@@ -67,8 +67,8 @@ std::vector<Spectrum> built_in_spectra() {
   return out;
 }
 
-WayError spectral_error(const AppearanceParameters& p, const SpectralIntegrator& integrator,
-                        const BandGrid& grid, BandSampling sampling) {
+EvaluatorError spectral_error(const AppearanceParameters& p, const SpectralIntegrator& integrator,
+                              const BandGrid& grid, BandSampling sampling) {
   const BandGrid fine = grid_of(1);
   const SpectralIntegrator truth(emissive_weights(fine, BandSampling::bin, BandUnit::per_nm),
                                  Accumulation::dual);
@@ -88,7 +88,7 @@ WayError spectral_error(const AppearanceParameters& p, const SpectralIntegrator&
                                                p.xyz_from_rgb * seen(reference, is, gain)));
     }
   }
-  WayError out;
+  EvaluatorError out;
   out.difference = statistics_of(std::move(differences));
   out.pixel = statistics_of(std::move(relative));
   return out;
@@ -148,7 +148,7 @@ struct AcuityPlace {
   }
 };
 
-WayError acuity_error(const AppearanceParameters& p, const Colours& expected, const Colours& got) {
+EvaluatorError acuity_error(const AppearanceParameters& p, const Colours& expected, const Colours& got) {
   std::vector<double> differences, relative;
   for (std::size_t i = 0; i < got.size(); ++i) {
     const Vec3<double> should = {expected.r[i], expected.g[i], expected.b[i]},
@@ -161,7 +161,7 @@ WayError acuity_error(const AppearanceParameters& p, const Colours& expected, co
     }
     relative.push_back(size > 0 ? error / size : error);
   }
-  WayError out;
+  EvaluatorError out;
   out.difference = statistics_of(std::move(differences));
   out.pixel = statistics_of(std::move(relative));
   return out;

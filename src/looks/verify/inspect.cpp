@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "looks/lut/ladder.h"
+#include "looks/lut/shipped_looks.h"
 #include "looks/config/look_config.h"
 #include "looks/chain/ocio_chain.h"
 #include "base/error.h"
@@ -78,7 +78,7 @@ void inspect_context(const OCIO::ConstConfigRcPtr& config, const OCIO::ConstLook
   const auto transform = OCIO::DynamicPtrCast<const OCIO::FileTransform>(look->getTransform());
   if (!transform || std::string(transform->getSrc()).find(context_variable) == std::string::npos) return;
   const OCIO::ContextRcPtr context = config->getCurrentContext()->createEditableCopy();
-  for (const LadderStep& step : ladder) {
+  for (const NamedAdaptation& step : named_adaptations) {
     context->setStringVar(context_variable, adaptation_text(step.adaptation).c_str());
     try {
       (void)context->resolveFileLocation(transform->getSrc());

@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "pipeline/layout/find_light.h"
 #include "pipeline/layout/layout.h"
-#include "pipeline/rows/light_path.h"
+#include "pipeline/rows/row_codec.h"
 
 namespace scotopic {
 namespace {
@@ -57,7 +57,7 @@ bool is_display_encoding(const ColourConfig& config, const ColourSpace& space) {
 /// The space that the display stage's result is encoded in: as asked, else the input's where that is a
 /// display's, else that of the output's name.
 ColourSpace night_space(const std::string& output, const ColourConfig& config, const ImageRequest& request,
-                        const LightPicture& light, bool from_integer) {
+                        const LightSubimage& light, bool from_integer) {
   if (!request.night_display.empty()) return config.display_space(request.night_display);
   if (from_integer && can_be_stated(light.space, false, false) && is_display_encoding(config, light.space))
     return light.space;
@@ -70,7 +70,7 @@ ColourSpace night_space(const std::string& output, const ColourConfig& config, c
 }
 
 /// The display stage's part of the layout.
-NightOutput night_output(const ColourConfig& config, const ColourSpace& space, const LightPicture& light,
+NightOutput night_output(const ColourConfig& config, const ColourSpace& space, const LightSubimage& light,
                          bool from_integer) {
   NightOutput out;
   const auto encoding = config.encoding(space);
@@ -93,10 +93,10 @@ NightOutput night_output(const ColourConfig& config, const ColourSpace& space, c
 ColourSpace choose_output_space(const PixelSource& source, const std::string& output,
                                 const ColourConfig& config, const ImageRequest& request,
                                 ImageLayout& layout) {
-  const LightPicture& light = layout.light.front();
-  const Picture& picture = source.pictures()[light.index];
+  const LightSubimage& light = layout.light.front();
+  const Subimage& subimage = source.subimages()[light.index];
   const bool receptors = has_receptors(light.channels);
-  const PixelType in = receptors ? PixelType::float32 : picture.channels[light.channels.index[0]].type;
+  const PixelType in = receptors ? PixelType::float32 : subimage.channels[light.channels.index[0]].type;
   const PixelType out = output_type(layout.format, output, in, request);
   if (is_looked_at(layout.format, out, request)) {
     const ColourSpace space = night_space(output, config, request, light, is_integer(in));
@@ -108,21 +108,21 @@ ColourSpace choose_output_space(const PixelSource& source, const std::string& ou
   if (request.profile) return {request.profile->description(), std::nullopt, std::nullopt, request.profile};
   const bool exr = layout.format == "openexr";
   const bool named =
-      source.format() == "openexr" && !request.colourspace && !picture.colour.interop_id.empty();
+      source.format() == "openexr" && !request.colourspace && !subimage.colour.interop_id.empty();
   const bool stays = !light.channels.xyz && can_be_stated(light.space, exr, named);
   if (is_integer(in) == is_integer(out) && stays) return light.space;
   return is_integer(out) ? config.space_of_file(output, true) : config.space(config.working_space());
 }
 
 /// Channels of an output: R, G, B in place of what they are made of; the others as they are, or only alpha.
-std::vector<Channel> output_channels(const Picture& picture, const LightPicture& light,
+std::vector<Channel> output_channels(const Subimage& subimage, const LightSubimage& light,
                                      const std::string& format, const std::string& output,
                                      const ImageRequest& request, bool keep_others) {
   const ColourChannels& colour = light.channels;
   const std::string prefix = colour.layer.empty() ? "" : colour.layer + ".";
   const auto type_of = [&](std::size_t i) {
     const PixelType own =
-        colour.kind == Kind::computed ? PixelType::float32 : picture.channels[colour.index[i]].type;
+        colour.kind == Kind::computed ? PixelType::float32 : subimage.channels[colour.index[i]].type;
     return output_type(format, output, own, request);
   };
   std::vector<Channel> out;
@@ -130,35 +130,36 @@ std::vector<Channel> output_channels(const Picture& picture, const LightPicture&
   for (std::size_t i = 0; i < 3; ++i) {
     std::string name = keep_others ? prefix + names[i] : names[i];
     // Its own name, where the file writes it another way.
-    if (colour.kind == Kind::rgb && !colour.xyz && keep_others) name = picture.channels[colour.index[i]].name;
+    if (colour.kind == Kind::rgb && !colour.xyz && keep_others)
+      name = subimage.channels[colour.index[i]].name;
     out.push_back({name, type_of(colour.kind == Kind::grey ? 0 : i)});
   }
-  for (std::size_t c = 0; c < picture.channels.size(); ++c) {
+  for (std::size_t c = 0; c < subimage.channels.size(); ++c) {
     if (colour.is_colour(c)) continue;
     const bool alpha = colour.alpha == c && format != "jpeg";
     if (keep_others || alpha)
-      out.push_back({alpha && !keep_others ? "A" : picture.channels[c].name,
-                     format == "openexr" && !is_integer(picture.channels[c].type) ? picture.channels[c].type
-                     : format == "openexr" && picture.channels[c].type == PixelType::uint32
+      out.push_back({alpha && !keep_others ? "A" : subimage.channels[c].name,
+                     format == "openexr" && !is_integer(subimage.channels[c].type) ? subimage.channels[c].type
+                     : format == "openexr" && subimage.channels[c].type == PixelType::uint32
                          ? PixelType::uint32
                          : out[0].type});
   }
   return out;
 }
 
-OutputPicture light_output(const PixelSource& source, const LightPicture& light, const std::string& output,
-                           const ColourConfig& config, const ImageRequest& request,
-                           const ImageLayout& layout) {
-  const Picture& picture = source.pictures()[light.index];
-  OutputPicture out;
+OutputSubimage light_output(const PixelSource& source, const LightSubimage& light, const std::string& output,
+                            const ColourConfig& config, const ImageRequest& request,
+                            const ImageLayout& layout) {
+  const Subimage& subimage = source.subimages()[light.index];
+  OutputSubimage out;
   out.source = light.index;
-  out.picture = picture;
+  out.subimage = subimage;
   const bool same_kind = source.format() == layout.format;
-  out.picture.channels = output_channels(
-      picture, light, layout.format, output, request,
+  out.subimage.channels = output_channels(
+      subimage, light, layout.format, output, request,
       same_kind ? layout.format == "openexr" || layout.format == "tiff" : layout.format == "openexr");
-  if (layout.format == "openexr" || layout.format == "jpeg") out.picture.unassociated_alpha = false;
-  if (layout.format == "png") out.picture.unassociated_alpha = true;
+  if (layout.format == "openexr" || layout.format == "jpeg") out.subimage.unassociated_alpha = false;
+  if (layout.format == "png") out.subimage.unassociated_alpha = true;
   const bool receptors = has_receptors(light.channels);
   out.new_space = receptors || !config.same(light.space, layout.output_space);
   out.tags = written_tags(layout.output_space, config);
@@ -171,32 +172,32 @@ OutputPicture light_output(const PixelSource& source, const LightPicture& light,
 
 void note_losses(const PixelSource& source, ImageLayout& layout) {
   if (layout.format == "openexr") return;
-  const std::size_t left_out = source.pictures().size() - layout.outputs.size();
+  const std::size_t left_out = source.subimages().size() - layout.outputs.size();
   if (left_out > 0)
     layout.notes.push_back(std::to_string(left_out) +
                            " more pictures (parts, resolutions, pages) are not written: " + layout.format +
                            " holds only the first here");
-  const OutputPicture& out = layout.outputs.front();
-  const Picture& picture = source.pictures()[out.source];
-  const PixelType colour = picture.channels.empty() ? PixelType::float32 : picture.channels.front().type;
+  const OutputSubimage& out = layout.outputs.front();
+  const Subimage& subimage = source.subimages()[out.source];
+  const PixelType colour = subimage.channels.empty() ? PixelType::float32 : subimage.channels.front().type;
   if (layout.format == "tiff" && colour == PixelType::half &&
-      out.picture.channels.front().type == PixelType::float32)
+      out.subimage.channels.front().type == PixelType::float32)
     layout.notes.push_back("half becomes float: few programs read a TIFF of half");
-  if (picture.data != picture.display) layout.notes.push_back("only the data window is written");
+  if (subimage.data != subimage.display) layout.notes.push_back("only the data window is written");
   const std::size_t colours = layout.light.front().channels.count();
-  const std::size_t others = picture.channels.size() - std::min(picture.channels.size(), colours);
-  const std::size_t kept = out.picture.channels.size() - 3;
+  const std::size_t others = subimage.channels.size() - std::min(subimage.channels.size(), colours);
+  const std::size_t kept = out.subimage.channels.size() - 3;
   if (others > kept)
     layout.notes.push_back(std::to_string(others - kept) + " other channels are not written");
 }
 
-/// Of the first picture with light: the others are read in the same way.
+/// Of the first subimage with light: the others are read in the same way.
 void note_colours(const PixelSource& source, ImageLayout& layout) {
-  const LightPicture& light = layout.light.front();
-  const std::vector<std::string>& read = source.pictures()[light.index].notes;
+  const LightSubimage& light = layout.light.front();
+  const std::vector<std::string>& read = source.subimages()[light.index].notes;
   layout.notes.insert(layout.notes.end(), read.begin(), read.end());
   layout.notes.insert(layout.notes.end(), light.conflicts.begin(), light.conflicts.end());
-  const OutputPicture& out = layout.outputs.front();
+  const OutputSubimage& out = layout.outputs.front();
   const bool said = layout.format == "openexr" ? out.tags.linear : out.tags.srgb || out.tags.icc;
   if (out.new_tags && !said && !out.for_a_device)
     layout.notes.push_back("values are written in '" + layout.output_space.name +
@@ -205,9 +206,9 @@ void note_colours(const PixelSource& source, ImageLayout& layout) {
 
 }  // namespace
 
-const LightPicture* ImageLayout::light_of(std::size_t source_index) const {
-  for (const LightPicture& picture : light)
-    if (picture.index == source_index) return &picture;
+const LightSubimage* ImageLayout::light_of(std::size_t source_index) const {
+  for (const LightSubimage& subimage : light)
+    if (subimage.index == source_index) return &subimage;
   return nullptr;
 }
 
@@ -225,16 +226,16 @@ ImageLayout plan_layout(const PixelSource& source, const std::string& output, co
   const bool whole = layout.format == "openexr" ? source.format() == "openexr" : false;
   const bool pages = layout.format == "tiff" && source.format() == "tiff";
   if (!whole && !pages) layout.light.resize(1);
-  for (std::size_t i = 0; i < source.pictures().size(); ++i) {
-    if (const LightPicture* light = layout.light_of(i)) {
+  for (std::size_t i = 0; i < source.subimages().size(); ++i) {
+    if (const LightSubimage* light = layout.light_of(i)) {
       layout.outputs.push_back(light_output(source, *light, output, config, request, layout));
     } else if (whole) {
-      OutputPicture copied;
+      OutputSubimage copied;
       copied.source = i;
-      copied.picture = source.pictures()[i];
+      copied.subimage = source.subimages()[i];
       copied.copy = true;
       // Chunks of a part are copied at once, with all its resolutions.
-      if (copied.picture.level_x == 0 && copied.picture.level_y == 0) layout.outputs.push_back(copied);
+      if (copied.subimage.level_x == 0 && copied.subimage.level_y == 0) layout.outputs.push_back(copied);
     }
   }
   note_losses(source, layout);
@@ -253,7 +254,7 @@ ImageLayout read_layout(const PixelSource& source, const ColourConfig& config, c
 }
 
 void set_stamps(ImageLayout& layout, const std::vector<Attribute>& stamps) {
-  for (OutputPicture& out : layout.outputs)
+  for (OutputSubimage& out : layout.outputs)
     if (!out.copy) out.stamps = stamps;
 }
 

@@ -44,7 +44,7 @@ struct ImageRequest {
 };
 
 /// A picture of the source that holds light, and the space its values are in.
-struct LightPicture {
+struct LightSubimage {
   std::size_t index = 0;
   ColourChannels channels;
   ColourSpace space;
@@ -62,8 +62,8 @@ struct NightOutput {
 /// What a file will become; no pixel is read. `notes` are for the user: what the output cannot hold.
 struct ImageLayout {
   std::string format;
-  std::vector<LightPicture> light;  ///< at least one
-  std::vector<OutputPicture> outputs;
+  std::vector<LightSubimage> light;  ///< at least one
+  std::vector<OutputSubimage> outputs;
   ColourSpace output_space;
   double exposure = 0;
   std::optional<NightOutput> night;  ///< the display stage runs
@@ -71,7 +71,7 @@ struct ImageLayout {
   std::vector<std::string> notes;
 
   /// The light of that picture of the source; nullptr: it holds none.
-  const LightPicture* light_of(std::size_t source_index) const;
+  const LightSubimage* light_of(std::size_t source_index) const;
 };
 
 /// Throws Error for a layer, space or type that does not exist or does not fit the output's format.

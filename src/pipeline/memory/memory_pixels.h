@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "io/picture.h"
+#include "io/subimage.h"
 
 namespace scotopic {
 

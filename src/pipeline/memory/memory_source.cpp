@@ -36,20 +36,20 @@ bool same_bits(float a, float b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 MemorySource::MemorySource(const MemoryPixels& pixels, const MemoryHeader& header)
     : PixelSource(header.name, "openexr"), pixels_(pixels) {
-  Picture picture;
-  picture.data = header.data;
-  picture.display = header.display;
-  picture.pixel_aspect = usable_aspect(header.pixel_aspect);
-  picture.unassociated_alpha = header.straight && pixels.channels == 4;
+  Subimage subimage;
+  subimage.data = header.data;
+  subimage.display = header.display;
+  subimage.pixel_aspect = usable_aspect(header.pixel_aspect);
+  subimage.unassociated_alpha = header.straight && pixels.channels == 4;
   for (int c = 0; c < pixels.channels; ++c)
-    picture.channels.push_back({names[c], type_in_bands(pixels.type)});
-  pictures_.push_back(picture);
+    subimage.channels.push_back({names[c], type_in_bands(pixels.type)});
+  subimages_.push_back(subimage);
   if (pixels.width <= 0 || pixels.height <= 0) fail("has no pixels");
 }
 
 void MemorySource::read(std::size_t, int y0, int rows, Band& band) {
-  const Picture& picture = pictures_.front();
-  const int first = y0 - picture.data.y0;
+  const Subimage& subimage = subimages_.front();
+  const int first = y0 - subimage.data.y0;
   if (pixels_.type != SampleType::float64) {
     band = Band();
     band.y0 = y0;
@@ -60,7 +60,7 @@ void MemorySource::read(std::size_t, int y0, int rows, Band& band) {
           {pixels_.at(0, first, c), pixels_.pixel_stride, pixels_.row_stride, type_in_bands(pixels_.type)});
     return;
   }
-  band.allocate_planar(picture.channels, y0, rows, pixels_.width);
+  band.allocate_planar(subimage.channels, y0, rows, pixels_.width);
   for (int c = 0; c < pixels_.channels; ++c)
     for (int y = 0; y < rows; ++y) {
       std::byte* to = band.channels[static_cast<std::size_t>(c)].row(y).data;

@@ -23,9 +23,9 @@ OpenImage open_memory(const MemoryJob& job, const ImageSettings& settings, const
   const ImageRequest request = request_of(settings);
   image.layout = to_write ? plan_layout(*image.source, stands_for, settings.config, request)
                           : read_layout(*image.source, settings.config, request);
-  for (LightPicture& light : image.layout.light)
+  for (LightSubimage& light : image.layout.light)
     if (!settings.request.colourspace) light.space_reason = "the working space";
-  for (OutputPicture& out : image.layout.outputs) out.picture.unassociated_alpha = job.header.straight;
+  for (OutputSubimage& out : image.layout.outputs) out.subimage.unassociated_alpha = job.header.straight;
   image.layout.notes.clear();  // about files
   image.layout.wraps = is_panorama(settings.viewing, *image.source, image.layout);
   image.known = known_numbers(settings.choice, *image.source, image.layout, notes);
@@ -41,7 +41,7 @@ class MemoryEnds : public ImageEnds {
   NonFinitePixels write(OpenImage& image, const ColourConfig& config, const ImageStages& stages,
                         const Progress& progress) override {
     MemorySink sink(job_.in, job_.header.data, job_.out, job_.window);
-    return write_pictures(*image.source, image.layout, config, stages, sink, progress);
+    return write_subimages(*image.source, image.layout, config, stages, sink, progress);
   }
 
  private:

@@ -7,15 +7,15 @@
 
 namespace scotopic {
 
-std::int64_t acuity_bytes(const SpatialFilter& filter, const Picture& picture, bool wraps) {
-  const std::int64_t rows = band_rows(picture);
+std::int64_t acuity_bytes(const SpatialFilter& filter, const Subimage& subimage, bool wraps) {
+  const std::int64_t rows = band_rows(subimage);
   // Bands that wait until the halo below them has come, the one that comes and the one worked out.
   const std::int64_t waiting = filter.halo() + 2 * rows;
   constexpr std::int64_t planes = 3 * sizeof(float), rest = sizeof(float) + 1;  // alpha, touched
-  const std::int64_t of_file = static_cast<std::int64_t>(row_bytes(picture));
-  const std::int64_t width = picture.data.width() + (wraps ? 2 * filter.halo() : 0);
-  return (filter.halo() + waiting) * planes * width + rows * planes * picture.data.width() +
-         waiting * (rest * picture.data.width() + of_file);
+  const std::int64_t of_file = static_cast<std::int64_t>(row_bytes(subimage));
+  const std::int64_t width = subimage.data.width() + (wraps ? 2 * filter.halo() : 0);
+  return (filter.halo() + waiting) * planes * width + rows * planes * subimage.data.width() +
+         waiting * (rest * subimage.data.width() + of_file);
 }
 
 AcuityRows::AcuityRows(const SpatialFilter& filter, const Window& data, bool descending, bool alpha,

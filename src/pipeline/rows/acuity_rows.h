@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "io/picture.h"
-#include "pipeline/rows/light_path.h"
+#include "io/subimage.h"
+#include "pipeline/rows/row_codec.h"
 #include "stages/acuity/filter.h"
 
 namespace scotopic {
@@ -16,18 +16,18 @@ namespace scotopic {
 /// A band of a file, and what the writer wants of its light besides R, G and B.
 struct WaitingBand {
   Band band;
-  std::vector<float> alpha;           ///< rows * width; empty where the picture has none
+  std::vector<float> alpha;           ///< rows * width; empty where the subimage has none
   std::vector<std::uint8_t> touched;  ///< rows * width
 };
 
-/// Bytes that AcuityRows will keep of a picture: planned before any is allocated.
-std::int64_t acuity_bytes(const SpatialFilter& filter, const Picture& picture, bool wraps = false);
+/// Bytes that AcuityRows will keep of a subimage: planned before any is allocated.
+std::int64_t acuity_bytes(const SpatialFilter& filter, const Subimage& subimage, bool wraps = false);
 
-/// Rows of one picture, from its top or (descending) its bottom. Holds the rows of the bands that wait and of
-/// the halo: memory does not grow with the height.
+/// Rows of one subimage, from its top or (descending) its bottom. Holds the rows of the bands that wait and
+/// of the halo: memory does not grow with the height.
 class AcuityRows {
  public:
-  /// `filter` must outlive it; `data` is the picture's window; `alpha`: keep it beside the light; `wraps`:
+  /// `filter` must outlive it; `data` is the subimage's window; `alpha`: keep it beside the light; `wraps`:
   /// the last column lies beside the first, as in a lat-long panorama.
   AcuityRows(const SpatialFilter& filter, const Window& data, bool descending, bool alpha,
              bool wraps = false);

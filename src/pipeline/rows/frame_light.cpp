@@ -10,9 +10,9 @@
 namespace scotopic {
 namespace {
 
-RowContext corner_of(const Picture& picture, const Moment& moment) {
-  const Window& d = picture.display;
-  return {picture.data.x0, picture.data.y0, d.x0, d.y0, d.x1, d.y1, moment};
+RowContext corner_of(const Subimage& subimage, const Moment& moment) {
+  const Window& d = subimage.display;
+  return {subimage.data.x0, subimage.data.y0, d.x0, d.y0, d.x1, d.y1, moment};
 }
 
 std::vector<float>* plane(LightRow& light, std::size_t k) {
@@ -25,22 +25,22 @@ const std::vector<float>* plane(const LightRow& light, std::size_t k) {
   return plane(const_cast<LightRow&>(light), k);
 }
 
-bool is_full_resolution(const Picture& picture) { return picture.level_x == 0 && picture.level_y == 0; }
+bool is_full_resolution(const Subimage& subimage) { return subimage.level_x == 0 && subimage.level_y == 0; }
 
 }  // namespace
 
-LightPlanes::LightPlanes(const Picture& picture, bool receptors, const Moment& moment)
-    : width_(picture.data.width()),
-      height_(picture.data.height()),
+LightPlanes::LightPlanes(const Subimage& subimage, bool receptors, const Moment& moment)
+    : width_(subimage.data.width()),
+      height_(subimage.data.height()),
       receptors_(receptors),
-      corner_(corner_of(picture, moment)) {
+      corner_(corner_of(subimage, moment)) {
   const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   for (std::size_t k = 0; k < (receptors_ ? 7u : 3u); ++k) planes_[k].resize(pixels);
 }
 
-std::int64_t LightPlanes::bytes(const Picture& picture, bool receptors) {
-  return std::int64_t{receptors ? 7 : 3} * std::int64_t{sizeof(float)} * picture.data.width() *
-         picture.data.height();
+std::int64_t LightPlanes::bytes(const Subimage& subimage, bool receptors) {
+  return std::int64_t{receptors ? 7 : 3} * std::int64_t{sizeof(float)} * subimage.data.width() *
+         subimage.data.height();
 }
 
 std::size_t LightPlanes::at(int y, int x) const {
@@ -82,22 +82,22 @@ FramePlanes LightPlanes::planes() {
 FrameLights decode_frames(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
                           NonFinite policy, const Moment& moment) {
   FrameLights out;
-  for (const LightPicture& light : layout.light) {
-    const Picture& picture = source.pictures()[light.index];
-    std::unique_ptr<LightPlanes>& kept = out.pictures.emplace_back();
-    if (!is_full_resolution(picture)) continue;
+  for (const LightSubimage& light : layout.light) {
+    const Subimage& subimage = source.subimages()[light.index];
+    std::unique_ptr<LightPlanes>& kept = out.subimages.emplace_back();
+    if (!is_full_resolution(subimage)) continue;
     const LightReader reader(light.channels, config, light.space);
-    LightPlanes& frame = *(kept = std::make_unique<LightPlanes>(picture, reader.receptors(), moment));
-    NonFiniteTally tally(picture);
+    LightPlanes& frame = *(kept = std::make_unique<LightPlanes>(subimage, reader.receptors(), moment));
+    NonFiniteTally tally(subimage);
     Band band;
-    each_band(picture, false, [&](int y0, int rows) {
+    each_band(subimage, false, [&](int y0, int rows) {
       source.read(light.index, y0, rows, band);
       parallel_rows(rows, 8, [&](int first, int last) {
-        LightRow row(static_cast<std::size_t>(picture.data.width()));
+        LightRow row(static_cast<std::size_t>(subimage.data.width()));
         for (int y = first; y < last; ++y) {
           reader.read(band, y, row);
-          tally.add(non_finite_of(row.pixels(reader.receptors())), picture.data.x0, y0 + y);
-          frame.set_row(y0 - picture.data.y0 + y, row);
+          tally.add(non_finite_of(row.pixels(reader.receptors())), subimage.data.x0, y0 + y);
+          frame.set_row(y0 - subimage.data.y0 + y, row);
         }
       });
     });
@@ -110,13 +110,14 @@ FrameLights decode_frames(PixelSource& source, const ImageLayout& layout, const 
 std::int64_t frame_bytes(const PixelSource& source, const ImageLayout& layout, const FrameStages& stages,
                          const StageScene& scene) {
   std::int64_t planes = 0, most = 0;
-  for (const LightPicture& light : layout.light) {
-    const Picture& picture = source.pictures()[light.index];
-    if (!is_full_resolution(picture)) continue;
+  for (const LightSubimage& light : layout.light) {
+    const Subimage& subimage = source.subimages()[light.index];
+    if (!is_full_resolution(subimage)) continue;
     const bool receptors = has_receptors(light.channels);
-    planes += LightPlanes::bytes(picture, receptors);
-    const FrameSize size = {picture.data.width(), picture.data.height(), receptors ? 7 : 3, threads_in_use()};
-    most = std::max(most, planned_bytes(picture));
+    planes += LightPlanes::bytes(subimage, receptors);
+    const FrameSize size = {subimage.data.width(), subimage.data.height(), receptors ? 7 : 3,
+                            threads_in_use()};
+    most = std::max(most, planned_bytes(subimage));
     for (const auto& stage : stages) most = std::max(most, stage->bytes(size, scene));
   }
   return planes + most;

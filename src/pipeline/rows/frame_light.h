@@ -1,4 +1,4 @@
-// The light of whole pictures, for stages that need all of it at once.
+// The light of whole subimages, for stages that need all of it at once.
 #pragma once
 
 #include <cstdint>
@@ -6,20 +6,20 @@
 #include <vector>
 
 #include "pipeline/layout/layout.h"
-#include "pipeline/rows/light_path.h"
+#include "pipeline/rows/row_codec.h"
 #include "pipeline/rows/non_finite.h"
 #include "pipeline/rows/stages.h"
 
 namespace scotopic {
 
-/// One picture as planes of float.
+/// One subimage as planes of float.
 class LightPlanes {
  public:
-  /// Room for the pixels of `picture`.
-  LightPlanes(const Picture& picture, bool receptors, const Moment& moment);
+  /// Room for the pixels of `subimage`.
+  LightPlanes(const Subimage& subimage, bool receptors, const Moment& moment);
 
   /// Bytes of the planes.
-  static std::int64_t bytes(const Picture& picture, bool receptors);
+  static std::int64_t bytes(const Subimage& subimage, bool receptors);
 
   /// Takes row `y`, counted from the data window's first; any thread.
   void set_row(int y, const LightRow& light);
@@ -43,12 +43,12 @@ class LightPlanes {
 /// Those of an image, one for each of layout.light; null for smaller resolutions, and where no stage has
 /// changed any.
 struct FrameLights {
-  std::vector<std::unique_ptr<LightPlanes>> pictures;
+  std::vector<std::unique_ptr<LightPlanes>> subimages;
   NonFinitePixels non_finite;  ///< of the file's pixels
 
-  /// Of layout.light[index]; nullptr where no stage needs whole pictures.
+  /// Of layout.light[index]; nullptr where no stage needs whole subimages.
   const LightPlanes* of(std::size_t index) const {
-    return index < pictures.size() ? pictures[index].get() : nullptr;
+    return index < subimages.size() ? subimages[index].get() : nullptr;
   }
 };
 
@@ -57,7 +57,7 @@ struct FrameLights {
 FrameLights decode_frames(PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
                           NonFinite policy, const Moment& moment);
 
-/// What the planes of all pictures and the stage that needs most take, rows on their way included.
+/// What the planes of all subimages and the stage that needs most take, rows on their way included.
 std::int64_t frame_bytes(const PixelSource& source, const ImageLayout& layout, const FrameStages& stages,
                          const StageScene& scene);
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "batch/batch.h"
-#include "io/picture.h"
+#include "io/subimage.h"
 
 namespace scotopic {
 
@@ -16,14 +16,14 @@ namespace scotopic {
 /// refused.
 enum class NonFinite { keep, clean, error };
 
-/// Of all light at full resolution. x, y: of the first such pixel, in the coordinates of its picture's data
+/// Of all light at full resolution. x, y: of the first such pixel, in the coordinates of its subimage's data
 /// window.
 struct NonFinitePixels {
   std::uint64_t count = 0;
   int x = 0;
   int y = 0;
 
-  /// Those of the next picture.
+  /// Those of the next subimage.
   void add(const NonFinitePixels& next);
 };
 
@@ -39,11 +39,12 @@ std::vector<std::size_t> non_finite_of(const PixelRows& rows);
 /// Makes those pixels light; see NonFinite::clean.
 void clean(const PixelRows& rows, const std::vector<std::size_t>& pixels);
 
-/// Counts the bad pixels of one picture as its rows pass, in any order, from any number of threads.
+/// Counts the bad pixels of one subimage as its rows pass, in any order, from any number of threads.
 class NonFiniteTally {
  public:
   /// Of smaller resolutions nothing is counted.
-  explicit NonFiniteTally(const Picture& picture) : counts_(picture.level_x == 0 && picture.level_y == 0) {}
+  explicit NonFiniteTally(const Subimage& subimage)
+      : counts_(subimage.level_x == 0 && subimage.level_y == 0) {}
 
   /// Pixels of a row that begins at (x, y), as non_finite_of() has them.
   void add(const std::vector<std::size_t>& pixels, int x, int y);

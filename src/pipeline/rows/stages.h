@@ -1,4 +1,4 @@
-// Stages that the fused loop of pixel stages does not hold: of whole pictures before it, of single pixels
+// Stages that the fused loop of pixel stages does not hold: of whole subimages before it, of single pixels
 // after those that look around. Both are told the scene.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 #include "adaptation/time/dark_adaptation.h"
 #include "batch/batch.h"
-#include "io/picture.h"
+#include "io/subimage.h"
 #include "pipeline/notes.h"
 #include "scene/plan.h"
 #include "stages/acuity/filter.h"
@@ -38,7 +38,7 @@ struct AdaptationTrace {
 };
 
 /// What a stage may know of the scene. Of a frame stage: adaptation and unit as given, or as metered on the
-/// picture before it; of a stage after the others, as they were used.
+/// subimage before it; of a stage after the others, as they were used.
 struct StageScene {
   AppearanceParameters parameters;
   AngularResolution resolution;
@@ -63,7 +63,7 @@ class SceneStage {
   virtual std::vector<Attribute> stamps(const StageScene& scene) const = 0;
 };
 
-/// A whole picture's light: linear working RGB, and receptor signals where the file brings its own.
+/// A whole subimage's light: linear working RGB, and receptor signals where the file brings its own.
 struct FramePlanes {
   std::array<float*, 3> rgb{};
   std::array<float*, 4> receptors{};  ///< L, M, S, rods; null where they follow from RGB
@@ -76,7 +76,7 @@ struct FramePlanes {
   int count() const noexcept { return receptors[0] ? 7 : 3; }
 };
 
-/// What a picture is, as far as its header tells: enough to plan memory by.
+/// What a subimage is, as far as its header tells: enough to plan memory by.
 struct FrameSize {
   int width = 0;
   int height = 0;
@@ -84,15 +84,15 @@ struct FrameSize {
   int threads = 1;
 };
 
-/// Whether a picture was changed, and why or why not.
+/// Whether a subimage was changed, and why or why not.
 struct FrameOutcome {
   bool ran = false;
   std::string reason;  ///< in words, with the number
-  double number = 0;   ///< what decided; added up over the pictures of an image
+  double number = 0;   ///< what decided; added up over the subimages of an image
 };
 
-/// A stage that needs the whole picture, as light that scatters in the eye does: before the pixel stages, in
-/// place. Immutable: any number of pictures at once. Smaller resolutions of a picture do not go through it.
+/// A stage that needs the whole subimage, as light that scatters in the eye does: before the pixel stages, in
+/// place. Immutable: any number of subimages at once. Smaller resolutions of a subimage do not go through it.
 class FrameStage : public SceneStage {
  public:
   /// Without a pixel, when adaptation and unit are not known yet: what the scene calls for is for run() to

@@ -11,7 +11,7 @@ namespace scotopic {
 namespace {
 
 int display_width(const PixelSource& source, const ImageLayout& layout) {
-  return source.pictures()[layout.light.front().index].display.width();
+  return source.subimages()[layout.light.front().index].display.width();
 }
 
 /// Horizontal degrees of a lens by Exif's 35 mm equivalent: the frame is 36 mm wide.
@@ -27,7 +27,7 @@ std::optional<double> camera_field_of_view(const PixelSource& source, const Imag
   return std::nullopt;
 }
 
-/// What a picture on a desk or a wall fills of its viewer's field (our choice: a lens of 50 mm).
+/// What a subimage on a desk or a wall fills of its viewer's field (our choice: a lens of 50 mm).
 constexpr double assumed_degrees = 40;
 
 bool is_lat_long(const PixelSource& source, const ImageLayout& layout) {
@@ -70,7 +70,7 @@ bool is_panorama(const ViewingChoice& choice, const PixelSource& source, const I
 AngularResolution angular_resolution(const ViewingChoice& choice, const PixelSource& source,
                                      const ImageLayout& layout) {
   AngularResolution out = resolution_across(choice, source, layout);
-  out.pixel_aspect = source.pictures()[layout.light.front().index].pixel_aspect;
+  out.pixel_aspect = source.subimages()[layout.light.front().index].pixel_aspect;
   return out;
 }
 

@@ -4,7 +4,7 @@
 
 #include "io/pixels/row_bands.h"
 #include "pipeline/apply_image.h"
-#include "pipeline/rows/picture_run.h"
+#include "pipeline/rows/subimage_run.h"
 
 namespace scotopic {
 namespace {
@@ -24,31 +24,31 @@ PixelRows columns(PixelRows rows, std::uint64_t first, int count) {
   return rows;
 }
 
-bool is_full_resolution(const Picture& picture) { return picture.level_x == 0 && picture.level_y == 0; }
+bool is_full_resolution(const Subimage& subimage) { return subimage.level_x == 0 && subimage.level_y == 0; }
 
-/// Pixels of all pictures with light, smaller resolutions included.
+/// Pixels of all subimages with light, smaller resolutions included.
 std::uint64_t pixels_of(const PixelSource& source, const ImageLayout& layout) {
   std::uint64_t pixels = 0;
-  for (const LightPicture& light : layout.light) {
-    const Window& w = source.pictures()[light.index].data;
+  for (const LightSubimage& light : layout.light) {
+    const Window& w = source.subimages()[light.index].data;
     pixels += static_cast<std::uint64_t>(w.width()) * static_cast<std::uint64_t>(w.height());
   }
   return pixels;
 }
 
-/// A pass over one picture.
-class PictureMeter {
+/// A pass over one subimage.
+class SubimageMeter {
  public:
-  PictureMeter(const Picture& picture, const LightReader& reader, const LightPlanes* frame,
-               const SceneMeter& meter, const MeterRequest& request, std::uint64_t before)
-      : picture_(picture),
+  SubimageMeter(const Subimage& subimage, const LightReader& reader, const LightPlanes* frame,
+                const SceneMeter& meter, const MeterRequest& request, std::uint64_t before)
+      : picture_(subimage),
         reader_(reader),
         frame_(frame),
         meter_(meter),
-        whole_(request.whole ? picture.data : Window{}),
-        region_(request.region ? common(picture.data, *request.region) : Window{}),
+        whole_(request.whole ? subimage.data : Window{}),
+        region_(request.region ? common(subimage.data, *request.region) : Window{}),
         before_(before),
-        tally_(picture) {}
+        tally_(subimage) {}
 
   /// Whether any of these rows counts.
   bool wants(int y0, int rows) const { return meets(whole_, y0, rows) || meets(region_, y0, rows); }
@@ -97,7 +97,7 @@ class PictureMeter {
                    out);
   }
 
-  const Picture& picture_;
+  const Subimage& picture_;
   const LightReader& reader_;
   const LightPlanes* frame_;
   const SceneMeter& meter_;
@@ -115,21 +115,21 @@ MeasuredLight measure_light(PixelSource& source, const ImageLayout& layout, cons
   MeasuredLight all;
   std::uint64_t before = 0;
   for (std::size_t i = 0; i < layout.light.size(); ++i) {
-    const LightPicture& light = layout.light[i];
-    const Picture& picture = source.pictures()[light.index];
-    if (!is_full_resolution(picture)) continue;
+    const LightSubimage& light = layout.light[i];
+    const Subimage& subimage = source.subimages()[light.index];
+    if (!is_full_resolution(subimage)) continue;
     const LightReader reader(light.channels, config, light.space);
     const LightPlanes* const frame = frames ? frames->of(i) : nullptr;
-    PictureMeter of_picture(picture, reader, frame, meter, request, before);
-    each_band(picture, false, [&](int y0, int rows) {
+    SubimageMeter of_picture(subimage, reader, frame, meter, request, before);
+    each_band(subimage, false, [&](int y0, int rows) {
       if (!of_picture.wants(y0, rows)) return;
       Band band;
       if (!frame) source.read(light.index, y0, rows, band);
       of_picture.measure(band, y0, rows, all);
     });
     all.non_finite.add(of_picture.non_finite());
-    before +=
-        static_cast<std::uint64_t>(picture.data.width()) * static_cast<std::uint64_t>(picture.data.height());
+    before += static_cast<std::uint64_t>(subimage.data.width()) *
+              static_cast<std::uint64_t>(subimage.data.height());
   }
   source.require_unchanged();
   return all;
@@ -159,12 +159,12 @@ LuminanceHistogram measure_base(PixelSource& source, const ImageLayout& layout, 
       all.add(part);
     });
   };
-  for (const OutputPicture& out : layout.outputs) {
-    const Picture& picture = source.pictures()[out.source];
-    if (out.copy || !is_full_resolution(picture)) continue;
-    const PictureRun run(source, layout, config, stages, out);
+  for (const OutputSubimage& out : layout.outputs) {
+    const Subimage& subimage = source.subimages()[out.source];
+    if (out.copy || !is_full_resolution(subimage)) continue;
+    const SubimageRun run(source, layout, config, stages, out);
     std::deque<AcuityRows> filters = run.filter_rows(false, false);
-    each_band(picture, false, [&](int y0, int rows) {
+    each_band(subimage, false, [&](int y0, int rows) {
       source.read(out.source, y0, rows, in);
       run.see_band(std::move(in), filters, add);
       in = Band();

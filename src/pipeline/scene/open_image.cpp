@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "pipeline/rows/light_path.h"
+#include "pipeline/rows/row_codec.h"
 #include "pipeline/scene/angular_resolution.h"
 
 namespace scotopic {
@@ -20,10 +20,10 @@ bool exists(const std::string& file) {
 }
 
 bool has_bands(const PixelSource& source) {
-  for (const Picture& picture : source.pictures())
-    for (const Channel& channel : picture.channels)
+  for (const Subimage& subimage : source.subimages())
+    for (const Channel& channel : subimage.channels)
       if (is_spectral_channel(channel.name)) return true;
-  for (std::size_t i = 0; i < source.pictures().size(); ++i)
+  for (std::size_t i = 0; i < source.subimages().size(); ++i)
     for (const Attribute& attribute : source.attributes(i))
       if (attribute.name == "spectralLayoutVersion") return true;
   return false;
@@ -76,7 +76,7 @@ std::optional<SpectralReport> spectral_report_of(const PixelSource& source) {
 
 bool OpenImage::has_receptors() const {
   return std::any_of(layout.light.begin(), layout.light.end(),
-                     [](const LightPicture& light) { return scotopic::has_receptors(light.channels); });
+                     [](const LightSubimage& light) { return scotopic::has_receptors(light.channels); });
 }
 
 OpenImage open_image(const ImageSettings& settings, const std::string& input, const std::string& output,
@@ -99,17 +99,17 @@ OpenImage open_to_read(const ImageSettings& settings, const std::string& input, 
 }
 
 std::string space_text(const ImageLayout& layout) {
-  const LightPicture& light = layout.light.front();
+  const LightSubimage& light = layout.light.front();
   return fmt::format("colour space {} ({}), written as {}", light.space.name, light.space_reason,
                      layout.output_space.name);
 }
 
 void describe_layout(const PixelSource& source, const ColourConfig& config, const ImageLayout& layout,
                      const Notes& notes) {
-  const LightPicture& light = layout.light.front();
-  const Window& w = source.pictures()[light.index].data;
+  const LightSubimage& light = layout.light.front();
+  const Window& w = source.subimages()[light.index].data;
   notes.detail(fmt::format("{}: {} x {} pixels, {}, {} pictures, {} with light", source.file(), w.width(),
-                           w.height(), source.format(), source.pictures().size(), layout.light.size()));
+                           w.height(), source.format(), source.subimages().size(), layout.light.size()));
   notes.detail(fmt::format("config {}, working space {}", config.file().empty() ? "built in" : config.file(),
                            config.working_space()));
   for (const std::string& note : layout.notes) notes.note(source.file() + ": " + note);

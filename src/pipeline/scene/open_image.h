@@ -29,7 +29,7 @@ struct OpenImage {
   ImageLayout layout;
   KnownNumbers known;
 
-  /// Whether pixels of any picture bring signals of receptors beside RGB.
+  /// Whether pixels of any subimage bring signals of receptors beside RGB.
   bool has_receptors() const;
 };
 

@@ -11,10 +11,10 @@ std::optional<double> unit_of(const KnownNumbers& known) {
   return known.white_luminance ? known.white_luminance : known.file_unit;
 }
 
-FileUnit file_unit(const Picture& picture, ColourChannels::Kind kind) {
+FileUnit file_unit(const Subimage& subimage, ColourChannels::Kind kind) {
   using Kind = ColourChannels::Kind;
-  if (kind == Kind::lmsr && picture.lmsr_unit) return {picture.lmsr_unit, "the file's scotopic:lmsrUnit"};
-  return {picture.white_luminance,
+  if (kind == Kind::lmsr && subimage.lmsr_unit) return {subimage.lmsr_unit, "the file's scotopic:lmsrUnit"};
+  return {subimage.white_luminance,
           kind == Kind::computed ? "spectral radiance is absolute" : "the file's whiteLuminance"};
 }
 
@@ -25,9 +25,9 @@ KnownNumbers known_numbers(const OperatorChoice& choice, const PixelSource& sour
   known.adaptation_source = choice.adaptation_source;
   known.metering = choice.metering.description;
   known.white_luminance = choice.white_luminance;
-  const LightPicture& light = layout.light.front();
-  const Picture& picture = source.pictures()[light.index];
-  const FileUnit unit = file_unit(picture, light.channels.kind);
+  const LightSubimage& light = layout.light.front();
+  const Subimage& subimage = source.subimages()[light.index];
+  const FileUnit unit = file_unit(subimage, light.channels.kind);
   known.file_unit = unit.luminance;
   known.file_unit_source = unit.source;
   if (light.space.curve.absolute()) {
@@ -53,7 +53,7 @@ bool needs_measurement(const KnownNumbers& known, const std::string& file) {
   return true;
 }
 
-SceneNumbers settle(const KnownNumbers& known, double metered, const std::string& file) {
+SceneNumbers resolve_numbers(const KnownNumbers& known, double metered, const std::string& file) {
   SceneNumbers out;
   const std::optional<double> unit = unit_of(known);
   if (known.adaptation) {

@@ -29,12 +29,12 @@ struct KnownNumbers {
   std::string metering;  ///< how the adaptation is metered, if it is
 };
 
-/// cd/m2 that value 1 of a picture stands for by its header, and how it is told.
+/// cd/m2 that value 1 of a subimage stands for by its header, and how it is told.
 struct FileUnit {
   std::optional<double> luminance;
   std::string source;
 };
-FileUnit file_unit(const Picture& picture, ColourChannels::Kind kind);
+FileUnit file_unit(const Subimage& subimage, ColourChannels::Kind kind);
 
 /// From the options and the file's header. A unit in the file that is no luminance is ignored, with a note.
 KnownNumbers known_numbers(const OperatorChoice& choice, const PixelSource& source, const ImageLayout& layout,
@@ -52,7 +52,7 @@ std::optional<double> unit_of(const KnownNumbers& known);
 
 /// The user's unit, else the file's, else La/.18: the scene's middle grey is what the eye is adapted to.
 /// `metered` in image values, where needed; Error(input) if it is 0.
-SceneNumbers settle(const KnownNumbers& known, double metered, const std::string& file);
+SceneNumbers resolve_numbers(const KnownNumbers& known, double metered, const std::string& file);
 
 /// "adaptation .1 cd/m2 (--adaptation), image value 1 is .55 cd/m2 (...)".
 std::string describe(const SceneNumbers& numbers);

@@ -6,7 +6,7 @@ namespace scotopic {
 
 namespace {
 
-/// What is asked for runs, whatever the scene calls for; a frame stage looks at the picture first.
+/// What is asked for runs, whatever the scene calls for; a frame stage looks at the subimage first.
 void insist(EffectDecision& d) {
   if (!d.asked || d.needed) return;
   d.needed = true;

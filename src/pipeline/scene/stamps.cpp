@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "pipeline/rows/light_path.h"
+#include "pipeline/rows/row_codec.h"
 #include "pipeline/scene/parameter_names.h"
 
 namespace scotopic {

@@ -74,7 +74,7 @@ ToneStage tone_stage(const DisplayChoice& choice, const AppearanceParameters& sc
                      const Notes& notes) {
   ToneStage out;
   if (!choice.tone) return out;
-  const Window& data = source.pictures()[layout.light.front().index].data;
+  const Window& data = source.subimages()[layout.light.front().index].data;
   const DisplayParameters p = tone_parameters(choice, scene, data, layout.exposure);
   layout.exposure = 0;
   const DisplayRange range = choice.range ? *choice.range : measured_range(p, source, layout, config, stages);

@@ -51,16 +51,16 @@ void FramesOfImage::decode(const Moment& moment, const Notes& notes) {
 
 bool FramesOfImage::run(const SceneNumbers& numbers) {
   scene_.parameters = parameters_of(settings_.choice, numbers.adaptation, numbers.white_luminance);
-  changed_.resize(lights_.pictures.size());
+  changed_.resize(lights_.subimages.size());
   for (std::size_t i = 0; i < decisions_.size(); ++i)
     if (decisions_[i].asked) run(*settings_.frame_stages[i], decisions_[i]);
   return std::find(changed_.begin(), changed_.end(), true) != changed_.end();
 }
 
 void FramesOfImage::run(const FrameStage& stage, EffectDecision& decision) {
-  for (std::size_t i = 0; i < lights_.pictures.size(); ++i) {
-    if (!lights_.pictures[i]) continue;
-    const FrameOutcome outcome = stage.run(lights_.pictures[i]->planes(), scene_, on_all_threads);
+  for (std::size_t i = 0; i < lights_.subimages.size(); ++i) {
+    if (!lights_.subimages[i]) continue;
+    const FrameOutcome outcome = stage.run(lights_.subimages[i]->planes(), scene_, on_all_threads);
     decision.number += outcome.number;
     decision.reason = outcome.reason;
     decision.needed = decision.needed || outcome.ran;
@@ -74,7 +74,7 @@ void FramesOfImage::run(const FrameStage& stage, EffectDecision& decision) {
 
 void FramesOfImage::forget_unchanged() {
   for (std::size_t i = 0; i < changed_.size(); ++i)
-    if (!changed_[i]) lights_.pictures[i].reset();
+    if (!changed_[i]) lights_.subimages[i].reset();
 }
 
 }  // namespace scotopic

@@ -30,7 +30,7 @@ std::size_t GlareFilter::bytes(int planes, int threads) const {
 }
 
 void GlareFilter::apply(const GlarePicture& picture, const ParallelFor& parallel_for) const {
-  glare::check_picture(*plan_, picture);
+  glare::check_subimage(*plan_, picture);
   const GlareParameters& p = plan_->parameters;
   if (p.grid.strength == 0) return;
   if (p.rule == GlareRule::above && count_above(*plan_, picture, parallel_for) == 0) return;

@@ -101,7 +101,7 @@ Extremes extremes(const Plan& plan, const GlarePicture& picture, const ParallelF
   return all;
 }
 
-void check_picture(const Plan& plan, const GlarePicture& picture) {
+void check_subimage(const Plan& plan, const GlarePicture& picture) {
   if (picture.light.empty() || picture.light.size() > most_light)
     throw std::invalid_argument("glare: 1 to 7 planes of light");
   const auto given = [](const float* plane) { return plane != nullptr; };

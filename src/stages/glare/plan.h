@@ -66,7 +66,7 @@ void for_bands(int height, int rows, const ParallelFor& parallel_for,
                const std::function<void(int, int, int)>& task);
 
 /// Throws std::invalid_argument unless there are 1 to 7 planes, all given.
-void check_picture(const Plan& plan, const GlarePicture& picture);
+void check_subimage(const Plan& plan, const GlarePicture& picture);
 
 /// How the plan takes planes.
 Excess excess_of(const Plan& plan, const GlarePicture& picture);

@@ -30,7 +30,7 @@ void expect_refused(const std::string& file, const std::string& fault, ExitCode 
     auto source = open_spectral_source(file, {}, Limits{});
     ASSERT_NE(source, nullptr) << fault;
     Band band;
-    source->read(0, source->pictures()[0].data.y0, source->pictures()[0].data.height(), band);
+    source->read(0, source->subimages()[0].data.y0, source->subimages()[0].data.height(), band);
     ADD_FAILURE() << fault << ": was taken";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), code) << fault;

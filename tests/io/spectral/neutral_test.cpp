@@ -38,7 +38,7 @@ Band read_pixels(const std::string& file) {
 
 float value(const Band& band, const std::string& name, const std::string& file, int i) {
   const auto source = open_source(file, Limits{});
-  const auto& channels = source->pictures()[0].channels;
+  const auto& channels = source->subimages()[0].channels;
   for (std::size_t c = 0; c < channels.size(); ++c)
     if (channels[c].name == name) {
       std::vector<float> row(patches);
@@ -101,7 +101,7 @@ TEST(SpectralApply, lmsr_file_holds_the_signals_and_says_their_unit) {
   }
   const auto written = open_source(output, Limits{});
   EXPECT_EQ(written->colour(0, "").kind, ColourChannels::Kind::lmsr);
-  EXPECT_EQ(written->pictures()[0].lmsr_unit, 1.0);
+  EXPECT_EQ(written->subimages()[0].lmsr_unit, 1.0);
   const Band band = read_pixels(output);
   test::WorstError worst;
   const char* const names[] = {"L", "M", "S", "R"};

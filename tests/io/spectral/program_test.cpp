@@ -117,7 +117,7 @@ TEST(SpectralProgram, apply_takes_spectra_and_passes_on_what_is_not_a_band) {
   EXPECT_NE(outcome.text.find("spectral radiance is absolute"), std::string::npos) << outcome.text;
   const auto seen = open_source(folder / "seen.exr", Limits{});
   std::vector<std::string> names;
-  for (const Channel& channel : seen->pictures()[0].channels) names.push_back(channel.name);
+  for (const Channel& channel : seen->subimages()[0].channels) names.push_back(channel.name);
   EXPECT_EQ(names, (std::vector<std::string>{"B", "G", "R"}));
   bool comments = false;
   for (const Attribute& attribute : seen->attributes(0)) {

@@ -29,7 +29,7 @@ constexpr int height = 29;
 constexpr int pixels = width * height;
 
 std::array<std::vector<float>, 7> read_all(SpectralSource& source, int rows_at_once = 1 << 20) {
-  const Picture& picture = source.pictures()[0];
+  const Subimage& picture = source.subimages()[0];
   std::array<std::vector<float>, 7> out;
   for (int y = picture.data.y0; y < picture.data.y1; y += rows_at_once) {
     Band band;
@@ -117,7 +117,7 @@ TEST(SpectralSource, scanlines_tiles_windows_and_every_lossless_compression_are_
       const auto source = open(folder / "image.exr");
       const std::string where = "compression " + std::to_string(compression) + (tiled ? " tiled" : "");
       expect_truth(where, read_all(*source), bands, scene.centres, scene.step);
-      EXPECT_EQ(source->pictures()[0].data, (Window{-5, 11, -5 + width, 11 + height}));
+      EXPECT_EQ(source->subimages()[0].data, (Window{-5, 11, -5 + width, 11 + height}));
     }
 }
 
@@ -133,7 +133,7 @@ TEST(SpectralSource, any_number_of_rows_at_once_and_of_threads_gives_the_same_bi
     EXPECT_EQ(at_once, read_all(*source)) << threads << " threads";
   }
   set_threads(0);
-  EXPECT_EQ(source->pictures()[0].chunk_rows, 16);
+  EXPECT_EQ(source->subimages()[0].chunk_rows, 16);
 }
 
 TEST(SpectralSource, half_bands_are_weighed_as_they_are) {
@@ -228,7 +228,7 @@ TEST(SpectralSource, stokes_components_and_other_channels_do_not_disturb) {
   expect_truth("polarised", read_all(*source), bands, scene.centres, scene.step);
   EXPECT_EQ(source->report().notes[0], "polarisation (S1 to S3) is ignored");
   std::vector<std::string> passed;
-  for (const Channel& channel : source->pictures()[0].channels) passed.push_back(channel.name);
+  for (const Channel& channel : source->subimages()[0].channels) passed.push_back(channel.name);
   EXPECT_EQ(passed, (std::vector<std::string>{"A", "depth.Z"}));
   const ColourChannels colour = source->colour(0, "");
   EXPECT_EQ(colour.kind, ColourChannels::Kind::computed);
@@ -253,7 +253,7 @@ TEST(SpectralSource, reflectance_is_lit_by_the_illuminant) {
     options.illuminant_name = name;
     const auto source = open(folder / "t.exr", options);
     EXPECT_EQ(source->report().kind, SpectralKind::reflective);
-    EXPECT_FALSE(source->pictures()[0].white_luminance.has_value());
+    EXPECT_FALSE(source->subimages()[0].white_luminance.has_value());
     const auto signals = read_all(*source);
     const auto lit = test::lit(patches, test::lamp(name), 1.0);
     for (std::size_t patch = 0; patch < patches.size(); ++patch) {

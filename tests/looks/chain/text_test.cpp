@@ -11,7 +11,7 @@
 
 #include "looks/chain/chain_text.h"
 #include "looks/verify/inspect.h"
-#include "looks/lut/ladder.h"
+#include "looks/lut/shipped_looks.h"
 #include "looks/lut/look_chain.h"
 #include "looks/lut/look_spec.h"
 #include "looks/chain/number_text.h"
@@ -254,7 +254,7 @@ TEST(Inspection, a_lut_that_is_worse_than_it_says_fails_and_strangers_are_refuse
 
 TEST(Ladder, names_are_what_ocio_s_list_of_looks_can_hold) {
   for (const Model model : {Model::filament2021, Model::kirk2011})
-    for (const LadderStep& step : ladder) {
+    for (const NamedAdaptation& step : named_adaptations) {
       const std::string name = look_name(test::adapted_to(step.adaptation, "rec709", model));
       EXPECT_EQ(name.find_first_of(",:|/"), std::string::npos) << name;
       EXPECT_EQ(name.find(" - "), std::string::npos) << name;

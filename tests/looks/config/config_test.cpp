@@ -10,7 +10,7 @@
 #include "looks/config/manifest.h"
 #include "looks/config/own_mark.h"
 #include "looks/verify/inspect.h"
-#include "looks/lut/ladder.h"
+#include "looks/lut/shipped_looks.h"
 #include "looks/config/look_set.h"
 #include "looks/chain/ocio_chain.h"
 #include "adaptation/thresholds.h"

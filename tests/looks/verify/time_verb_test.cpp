@@ -33,19 +33,19 @@ TEST(TimeVerb, every_way_has_its_row_with_time_and_error) {
   ASSERT_EQ(outcome.code, 0);
   const auto result = nlohmann::json::parse(outcome.out);
   std::set<std::string> names;
-  for (const auto& way : result["ways"]) {
-    names.insert(way["way"]);
-    EXPECT_GT(way["nanosecondsPerPixel"], 0) << way["way"];
-    if (way["way"] != "memcpy") {
-      EXPECT_TRUE(way["error"]["deltaE00"].contains("p99")) << way["way"];
+  for (const auto& kind : result["ways"]) {
+    names.insert(kind["way"]);
+    EXPECT_GT(kind["nanosecondsPerPixel"], 0) << kind["way"];
+    if (kind["way"] != "memcpy") {
+      EXPECT_TRUE(kind["error"]["deltaE00"].contains("p99")) << kind["way"];
     }
-    if (way["way"] == "float" && way["group"] == "operator") {
-      EXPECT_LE(way["error"]["relativePixel"]["max"], 5e-7);
-      EXPECT_FALSE(way["error"]["worst"].empty());
+    if (kind["way"] == "float" && kind["group"] == "operator") {
+      EXPECT_LE(kind["error"]["relativePixel"]["max"], 5e-7);
+      EXPECT_FALSE(kind["error"]["worst"].empty());
     }
-    if (way["way"] == "lut65") {
-      EXPECT_GT(way["bytes"], 3 * 65 * 65 * 65 * 4);
-      EXPECT_GT(way["bakeSeconds"], 0);
+    if (kind["way"] == "lut65") {
+      EXPECT_GT(kind["bytes"], 3 * 65 * 65 * 65 * 4);
+      EXPECT_GT(kind["bakeSeconds"], 0);
     }
   }
   for (const char* name : {"memcpy", "double, scalar", "double", "float", "lut129", "lut65", "lut33", "lut17",

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "looks/verify/way_table.h"
+#include "looks/verify/evaluator_table.h"
 
 namespace scotopic {
 namespace {
@@ -29,8 +29,8 @@ TEST(Timing, runs_take_turns_and_the_first_round_does_not_count) {
   EXPECT_EQ(times.size(), 2u);
 }
 
-WayRow row(const char* group, double time, double mean, double max) {
-  WayRow out;
+EvaluatorRow row(const char* group, double time, double mean, double max) {
+  EvaluatorRow out;
   out.group = group;
   out.time.median = time;
   out.error.emplace();
@@ -39,9 +39,9 @@ WayRow row(const char* group, double time, double mean, double max) {
 }
 
 TEST(Timing, a_way_is_dominated_by_one_of_its_group_that_is_no_worse_in_anything) {
-  std::vector<WayRow> rows = {row("a", 1, 1, 1), row("a", 2, 1, 1), row("a", 2, 0.5, 2),
-                              row("a", 1, 1, 1), row("b", 9, 9, 9), row("a", 0.5, 2, 0.5),
-                              WayRow{}};
+  std::vector<EvaluatorRow> rows = {row("a", 1, 1, 1), row("a", 2, 1, 1), row("a", 2, 0.5, 2),
+                                    row("a", 1, 1, 1), row("b", 9, 9, 9), row("a", 0.5, 2, 0.5),
+                                    EvaluatorRow{}};
   rows.back().group = "a";  // fastest of all, but nobody knows its error
   mark_dominated(rows);
   const bool expected[] = {false, true, false, false, false, false, false};

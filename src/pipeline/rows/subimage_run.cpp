@@ -1,4 +1,4 @@
-#include "pipeline/rows/picture_run.h"
+#include "pipeline/rows/subimage_run.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +38,7 @@ void copy_other(const NativeRow& from, const NativeRow& to, std::vector<float>& 
   }
 }
 
-/// A picture's way through the filters from the one at `at` on.
+/// A subimage's way through the filters from the one at `at` on.
 void pass_on(std::deque<AcuityRows>& filters, std::size_t at,
              const std::function<void(const AcuityRows&)>& use) {
   AcuityRows& rows = filters[at];
@@ -65,38 +65,39 @@ bool asks_for_scene(const ImageStages& stages) {
                      [](const RowStage* stage) { return stage->asks_for_scene(); });
 }
 
-const LightPlanes* frame_of(const ImageStages& stages, const ImageLayout& layout, const LightPicture& light) {
+const LightPlanes* frame_of(const ImageStages& stages, const ImageLayout& layout,
+                            const LightSubimage& light) {
   return stages.frames ? stages.frames->of(static_cast<std::size_t>(&light - layout.light.data())) : nullptr;
 }
 
 }  // namespace
 
-PictureRun::PictureRun(const PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-                       const ImageStages& stages, const OutputPicture& out)
+SubimageRun::SubimageRun(const PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+                         const ImageStages& stages, const OutputSubimage& out)
     : light_(*layout.light_of(out.source)),
-      source_picture_(source.pictures()[out.source]),
+      source_subimage_(source.subimages()[out.source]),
       out_(out),
       stages_(stages),
       wraps_(layout.wraps),
       frame_(frame_of(stages, layout, light_)),
       reader_(light_.channels, config, light_.space),
-      tally_(source_picture_) {
+      tally_(source_subimage_) {
   writer_.from_working = config.from_working(layout.output_space);
   writer_.gain = static_cast<float>(std::exp2(layout.exposure));
   find_others();
   set_alpha(config.linear_xyz(layout.output_space).has_value());
   const bool same_alpha =
-      !light_.channels.alpha || source_picture_.unassociated_alpha == out.picture.unassociated_alpha;
+      !light_.channels.alpha || source_subimage_.unassociated_alpha == out.subimage.unassociated_alpha;
   writer_.keep_untouched = !out.new_space && writer_.gain == 1 && same_alpha;
   whole_rows_ = asks_for_scene(stages);
 }
 
-PictureRun::Room::Room(std::size_t width, const ImageStages& stages)
+SubimageRun::Room::Room(std::size_t width, const ImageStages& stages)
     : light(width), scene(asks_for_scene(stages) ? width : 0) {
   for (const RowStage* stage : stages.after) memory.push_back(stage->memory());
 }
 
-void PictureRun::run(const Band& in, Band& out, bool interleaved) const {
+void SubimageRun::run(const Band& in, Band& out, bool interleaved) const {
   allocate(in, out, interleaved);
   // Receptors' signals have no columns of their own to take pieces of.
   if (reader_.receptors() || whole_rows_)
@@ -112,8 +113,8 @@ void PictureRun::run(const Band& in, Band& out, bool interleaved) const {
   });
 }
 
-void PictureRun::run(Band&& in, std::deque<AcuityRows>& filters, Band& out, bool interleaved,
-                     const std::function<void(const Band&)>& write) const {
+void SubimageRun::run(Band&& in, std::deque<AcuityRows>& filters, Band& out, bool interleaved,
+                      const std::function<void(const Band&)>& write) const {
   see_band(std::move(in), filters, [&](const AcuityRows& rows) {
     allocate(rows.band(), out, interleaved);
     each_row(rows.band(), [&](int row, Room& room) {
@@ -124,8 +125,8 @@ void PictureRun::run(Band&& in, std::deque<AcuityRows>& filters, Band& out, bool
   });
 }
 
-void PictureRun::see_band(Band&& in, std::deque<AcuityRows>& filters,
-                          const std::function<void(const AcuityRows&)>& use) const {
+void SubimageRun::see_band(Band&& in, std::deque<AcuityRows>& filters,
+                           const std::function<void(const AcuityRows&)>& use) const {
   AcuityRows& first = filters.front();
   const Band* band = first.add(std::move(in));
   each_row(*band, [&](int row, Room& room) {
@@ -135,9 +136,9 @@ void PictureRun::see_band(Band&& in, std::deque<AcuityRows>& filters,
   pass_on(filters, 0, use);
 }
 
-std::deque<AcuityRows> PictureRun::filter_rows(bool descending, bool keep_alpha) const {
+std::deque<AcuityRows> SubimageRun::filter_rows(bool descending, bool keep_alpha) const {
   std::deque<AcuityRows> out;
-  const Picture& p = source_picture_;
+  const Subimage& p = source_subimage_;
   const bool whole = p.data.x0 == p.display.x0 && p.data.x1 == p.display.x1;
   const bool alpha = keep_alpha && light_.channels.alpha.has_value();
   for (const SpatialFilter* filter : stages_.filters)
@@ -145,21 +146,21 @@ std::deque<AcuityRows> PictureRun::filter_rows(bool descending, bool keep_alpha)
   return out;
 }
 
-void PictureRun::each_row(const Band& band, const std::function<void(int row, Room& room)>& work) const {
+void SubimageRun::each_row(const Band& band, const std::function<void(int row, Room& room)>& work) const {
   parallel_rows(band.rows, 8, [&](int first, int last) {
     Room room(static_cast<std::size_t>(band.width), stages_);
     for (int row = first; row < last; ++row) work(row, room);
   });
 }
 
-void PictureRun::run_piece(const Band& in, int x, int row, Room& room, const Band& out) const {
+void SubimageRun::run_piece(const Band& in, int x, int row, Room& room, const Band& out) const {
   if (copies()) return copy_row(in, x, row, room.light, out);
   see_row(in, x, row, room);
   write_row(in, x, row, room, out);
 }
 
-void PictureRun::allocate(const Band& in, Band& out, bool interleaved) const {
-  const std::vector<Channel>& channels = out_.picture.channels;
+void SubimageRun::allocate(const Band& in, Band& out, bool interleaved) const {
+  const std::vector<Channel>& channels = out_.subimage.channels;
   if (interleaved)
     out.allocate_interleaved(channels, in.y0, in.rows, in.width);
   else
@@ -167,13 +168,13 @@ void PictureRun::allocate(const Band& in, Band& out, bool interleaved) const {
 }
 
 // Nothing is called for, and nothing else changes values: the file's own bytes go through.
-bool PictureRun::copies() const {
+bool SubimageRun::copies() const {
   const bool nothing = !stages_.evaluator && stages_.after.empty() && !frame_ && !stages_.light &&
                        stages_.non_finite != NonFinite::clean;
   return nothing && writer_.keep_untouched && !reader_.receptors();
 }
 
-void PictureRun::copy_row(const Band& in, int x, int row, LightRow& room, const Band& out) const {
+void SubimageRun::copy_row(const Band& in, int x, int row, LightRow& room, const Band& out) const {
   bool finite = true;
   for (std::size_t c = 0; c < 3; ++c) {
     const NativeRow from = colour_row(in, row, c);
@@ -186,15 +187,15 @@ void PictureRun::copy_row(const Band& in, int x, int row, LightRow& room, const 
 
 // Light as the operator sees it; returns the pixels of it that are not finite, which are clean by now if they
 // are to be.
-std::vector<std::size_t> PictureRun::read_light(const Band& in, int x, int row, LightRow& light,
-                                                NonFiniteTally* tally) const {
+std::vector<std::size_t> SubimageRun::read_light(const Band& in, int x, int row, LightRow& light,
+                                                 NonFiniteTally* tally) const {
   reader_.read(in, row, light);
   const PixelRows pixels = light.pixels(reader_.receptors());
   std::vector<std::size_t> bad = non_finite_of(pixels);
-  if (tally) tally->add(bad, source_picture_.data.x0 + x, in.y0 + row);
+  if (tally) tally->add(bad, source_subimage_.data.x0 + x, in.y0 + row);
   light.changed.clear();
   if (frame_) {
-    frame_->replace(in.y0 + row - source_picture_.data.y0, x, light);
+    frame_->replace(in.y0 + row - source_subimage_.data.y0, x, light);
     bad = non_finite_of(pixels);
   }
   if (stages_.non_finite == NonFinite::clean) clean(pixels, bad);
@@ -202,7 +203,7 @@ std::vector<std::size_t> PictureRun::read_light(const Band& in, int x, int row, 
   return bad;
 }
 
-void PictureRun::see_row(const Band& in, int x, int row, Room& room) const {
+void SubimageRun::see_row(const Band& in, int x, int row, Room& room) const {
   LightRow& light = room.light;
   const std::vector<std::size_t> bad = read_light(in, x, row, light, &tally_);
   if (whole_rows_ && stages_.filters.empty()) room.scene = light;
@@ -217,10 +218,10 @@ void PictureRun::see_row(const Band& in, int x, int row, Room& room) const {
 }
 
 // The stages after those that look around.
-void PictureRun::show_row(const Band& in, int x, int row, Room& room) const {
-  const Window& d = source_picture_.display;
+void SubimageRun::show_row(const Band& in, int x, int row, Room& room) const {
+  const Window& d = source_subimage_.display;
   RowSight sight;
-  sight.at = {source_picture_.data.x0 + x, in.y0 + row, d.x0, d.y0, d.x1, d.y1, stages_.moment};
+  sight.at = {source_subimage_.data.x0 + x, in.y0 + row, d.x0, d.y0, d.x1, d.y1, stages_.moment};
   // Behind filters a row comes back later than it was seen: then it is read again rather than kept.
   if (whole_rows_ && !stages_.filters.empty()) (void)read_light(in, x, row, room.scene, nullptr);
   for (std::size_t i = 0; i < stages_.after.size(); ++i) {
@@ -231,7 +232,7 @@ void PictureRun::show_row(const Band& in, int x, int row, Room& room) const {
   }
 }
 
-void PictureRun::write_row(const Band& in, int x, int row, Room& room, const Band& out) const {
+void SubimageRun::write_row(const Band& in, int x, int row, Room& room, const Band& out) const {
   if (!stages_.after.empty()) show_row(in, x, row, room);
   LightRow& light = room.light;
   const NativeRow targets[3] = {out.channels[0].row(row), out.channels[1].row(row), out.channels[2].row(row)};
@@ -242,39 +243,39 @@ void PictureRun::write_row(const Band& in, int x, int row, Room& room, const Ban
     const NativeRow sources[3] = {colour_row(in, row, 0), colour_row(in, row, 1), colour_row(in, row, 2)};
     changed = writer_.write(light, targets, &sources);
   }
-  const bool counts = stages_.clipped && source_picture_.level_x == 0 && source_picture_.level_y == 0;
+  const bool counts = stages_.clipped && source_subimage_.level_x == 0 && source_subimage_.level_y == 0;
   if (changed && counts) *stages_.clipped += clipped_pixels(light, targets[0].type);
   copy_others(in, row, light, out);
 }
 
 // R, G or B of the file, or its grey.
-NativeRow PictureRun::colour_row(const Band& in, int row, std::size_t c) const {
+NativeRow SubimageRun::colour_row(const Band& in, int row, std::size_t c) const {
   const bool grey = light_.channels.kind == ColourChannels::Kind::grey;
   return in.channels[light_.channels.index[grey ? 0 : c]].row(row);
 }
 
-void PictureRun::copy_others(const Band& in, int row, LightRow& room, const Band& out) const {
+void SubimageRun::copy_others(const Band& in, int row, LightRow& room, const Band& out) const {
   for (std::size_t i = 0; i < others_.size(); ++i)
     copy_other(in.channels[others_[i]].row(row), out.channels[3 + i].row(row), room.r);
 }
 
 // Without alpha beside it colour is written as the light it is.
-void PictureRun::set_alpha(bool linear) {
+void SubimageRun::set_alpha(bool linear) {
   const std::optional<std::size_t>& alpha = light_.channels.alpha;
   if (!alpha || std::find(others_.begin(), others_.end(), *alpha) == others_.end()) return;
-  const bool straight = out_.picture.unassociated_alpha;
+  const bool straight = out_.subimage.unassociated_alpha;
   writer_.divide_by_alpha = straight || !linear;
   writer_.multiply_by_alpha = !straight && !linear;
 }
 
 // Channels that are not colour follow R, G, B, in the file's order.
-void PictureRun::find_others() {
-  for (std::size_t o = 3; o < out_.picture.channels.size(); ++o) {
-    const std::string& name = out_.picture.channels[o].name;
-    for (std::size_t c = 0; c < source_picture_.channels.size(); ++c) {
+void SubimageRun::find_others() {
+  for (std::size_t o = 3; o < out_.subimage.channels.size(); ++o) {
+    const std::string& name = out_.subimage.channels[o].name;
+    for (std::size_t c = 0; c < source_subimage_.channels.size(); ++c) {
       const bool alpha = light_.channels.alpha == c;
       if (light_.channels.is_colour(c) ||
-          (source_picture_.channels[c].name != name && !(alpha && name == "A")))
+          (source_subimage_.channels[c].name != name && !(alpha && name == "A")))
         continue;
       others_.push_back(c);
       break;

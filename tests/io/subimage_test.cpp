@@ -9,8 +9,8 @@ namespace {
 
 using Kind = ColourChannels::Kind;
 
-Picture picture_of(const std::vector<std::string>& names) {
-  Picture out;
+Subimage picture_of(const std::vector<std::string>& names) {
+  Subimage out;
   out.data = {0, 0, 100, 100};
   for (const std::string& name : names) out.channels.push_back({name, PixelType::half});
   return out;
@@ -45,7 +45,7 @@ TEST(FindColour, light_is_found_where_files_keep_it) {
 }
 
 TEST(FindColour, several_layers_must_be_chosen_from) {
-  const Picture two = picture_of({"left.B", "left.G", "left.R", "right.B", "right.G", "right.R"});
+  const Subimage two = picture_of({"left.B", "left.G", "left.R", "right.B", "right.G", "right.R"});
   try {
     find_colour(two, "", "file.exr");
     FAIL() << "no error";
@@ -57,10 +57,10 @@ TEST(FindColour, several_layers_must_be_chosen_from) {
 
 TEST(Bands, rows_of_a_band_are_whole_chunks_and_do_not_depend_on_the_height) {
   for (const int chunk : {1, 16, 32, 256, 61}) {
-    Picture low = picture_of({"R", "G", "B"});
+    Subimage low = picture_of({"R", "G", "B"});
     low.chunk_rows = chunk;
     low.data = {0, 0, 4096, 100000};
-    Picture high = low;
+    Subimage high = low;
     high.data.y1 = 1000000;
     EXPECT_EQ(band_rows(low), band_rows(high));
     EXPECT_EQ(band_rows(low) % chunk, 0);

@@ -1,4 +1,4 @@
-#include "looks/verify/way_choice.h"
+#include "looks/verify/evaluator_choice.h"
 
 #include <gtest/gtest.h>
 
@@ -7,15 +7,15 @@
 namespace scotopic {
 namespace {
 
-constexpr MeasuredWay measured[] = {
+constexpr MeasuredEvaluator measured[] = {
     {"float", 1e-5, 5}, {"double", 5e-6, 15}, {"lut17", 1.5, 2}, {"lut33", 0.6, 3}, {"lut65", 0.2, 50}};
 
-std::string_view picked(const WayDemand& demand) {
-  const auto at = pick_way(measured, demand);
+std::string_view picked(const EvaluatorDemand& demand) {
+  const auto at = pick_evaluator(measured, demand);
   return at ? measured[*at].name : "none";
 }
 
-TEST(WayChoice, is_the_cheapest_that_is_accurate_enough_or_the_most_accurate_that_is_cheap_enough) {
+TEST(EvaluatorChoice, is_the_cheapest_that_is_accurate_enough_or_the_most_accurate_that_is_cheap_enough) {
   struct Row {
     std::optional<double> max_error, budget;
     std::string_view expected;
@@ -39,21 +39,21 @@ AppearanceParameters night() {
   return p;
 }
 
-TEST(WayChoice, what_is_picked_holds_its_bound_and_works) {
+TEST(EvaluatorChoice, what_is_picked_holds_its_bound_and_works) {
   // Between float's error and double's; no LUT comes near.
-  const WayChoice choice = choose_way(night(), {1e-3, {}}, true);
+  const EvaluatorChoice choice = choose_evaluator(night(), {1e-3, {}}, true);
   ASSERT_TRUE(choice.picked);
   EXPECT_LE(choice.measured[*choice.picked].max_error, 1e-3);
   EXPECT_GE(choice.measured.size(), 3u);
   float r = 0.1f, g = 0.2f, b = 0.05f;
   PixelRows rows;
   rows.r = &r, rows.g = &g, rows.b = &b, rows.count = 1;
-  choice.way.apply(rows, nullptr);
+  choice.kind.apply(rows, nullptr);
   EXPECT_NE(r, 0.1f);
 }
 
-TEST(WayChoice, without_luts_there_are_two_and_an_impossible_demand_picks_none) {
-  const WayChoice choice = choose_way(night(), {0.0, {}}, false);
+TEST(EvaluatorChoice, without_luts_there_are_two_and_an_impossible_demand_picks_none) {
+  const EvaluatorChoice choice = choose_evaluator(night(), {0.0, {}}, false);
   EXPECT_FALSE(choice.picked);
   EXPECT_EQ(choice.measured.size(), 2u);
 }

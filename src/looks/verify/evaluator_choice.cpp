@@ -1,4 +1,4 @@
-#include "looks/verify/way_choice.h"
+#include "looks/verify/evaluator_choice.h"
 
 #include <fmt/format.h>
 
@@ -15,8 +15,8 @@ constexpr std::size_t colours_compared = 20000;
 constexpr int rounds = 5;
 
 struct Candidate {
-  const Way* way;
-  PreparedWay prepared;
+  const EvaluatorKind* kind;
+  PreparedEvaluator prepared;
   double max_error;
 };
 
@@ -26,13 +26,13 @@ class Contest {
       : parameters_(p), colours_(stop_colours(colours_compared, p.xyz_from_rgb, p.xyz_from_rgb)) {}
 
   void enter(std::string_view name) {
-    const Way& way = way_named(name);
-    PreparedWay prepared = prepare_way(parameters_, way);
-    const double max_error = way_error(parameters_, prepared.apply, colours_).difference.max;
-    candidates_.push_back({&way, std::move(prepared), max_error});
+    const EvaluatorKind& kind = evaluator_named(name);
+    PreparedEvaluator prepared = prepare_evaluator(parameters_, kind);
+    const double max_error = evaluator_error(parameters_, prepared.apply, colours_).difference.max;
+    candidates_.push_back({&kind, std::move(prepared), max_error});
   }
 
-  std::vector<MeasuredWay> measure() const {
+  std::vector<MeasuredEvaluator> measure() const {
     Colours work = colours_;
     PixelRows rows;
     rows.r = work.r.data(), rows.g = work.g.data(), rows.b = work.b.data(), rows.count = work.size();
@@ -45,13 +45,13 @@ class Contest {
                       },
                       [&rows, &c] { c.prepared.apply(rows, nullptr); }, work.size()});
     const std::vector<RunTime> times = time_interleaved(runs, rounds);
-    std::vector<MeasuredWay> out;
+    std::vector<MeasuredEvaluator> out;
     for (std::size_t i = 0; i < candidates_.size(); ++i)
-      out.push_back({candidates_[i].way->name, candidates_[i].max_error, times[i].median});
+      out.push_back({candidates_[i].kind->name, candidates_[i].max_error, times[i].median});
     return out;
   }
 
-  PreparedWay take(std::size_t i) { return std::move(candidates_[i].prepared); }
+  PreparedEvaluator take(std::size_t i) { return std::move(candidates_[i].prepared); }
 
  private:
   const AppearanceParameters& parameters_;
@@ -59,23 +59,23 @@ class Contest {
   std::vector<Candidate> candidates_;
 };
 
-bool meets(const MeasuredWay& way, const WayDemand& demand) {
-  return (!demand.max_error || way.max_error <= *demand.max_error) &&
-         (!demand.budget || way.nanoseconds <= *demand.budget);
+bool meets(const MeasuredEvaluator& kind, const EvaluatorDemand& demand) {
+  return (!demand.max_error || kind.max_error <= *demand.max_error) &&
+         (!demand.budget || kind.nanoseconds <= *demand.budget);
 }
 
-std::string demand_text(const WayDemand& d) {
+std::string demand_text(const EvaluatorDemand& d) {
   std::string out;
   if (d.max_error) out = fmt::format("an error of at most {:g} dE00", *d.max_error);
   if (d.budget) out += fmt::format("{}at most {:g} ns per pixel", out.empty() ? "" : " and ", *d.budget);
   return out;
 }
 
-std::string measured_text(const std::vector<MeasuredWay>& measured) {
+std::string measured_text(const std::vector<MeasuredEvaluator>& measured) {
   std::string out;
-  for (const MeasuredWay& way : measured)
-    out += fmt::format("{}{} {:.2g} dE00 {:.3g} ns", out.empty() ? "" : ", ", way.name, way.max_error,
-                       way.nanoseconds);
+  for (const MeasuredEvaluator& kind : measured)
+    out += fmt::format("{}{} {:.2g} dE00 {:.3g} ns", out.empty() ? "" : ", ", kind.name, kind.max_error,
+                       kind.nanoseconds);
   return out;
 }
 
@@ -86,17 +86,18 @@ auto of_scene(const AppearanceParameters& p) {
 }
 
 /// The evaluator of a way; a LUT's is prepared already.
-std::shared_ptr<Evaluator> evaluator_of(const Way& way, const AppearanceParameters& parameters,
+std::shared_ptr<Evaluator> evaluator_of(const EvaluatorKind& kind, const AppearanceParameters& parameters,
                                         RowOperator lut) {
-  const std::string name(way.name);
-  if (way.edge > 0) return std::make_shared<Evaluator>(name, std::move(lut));
+  const std::string name(kind.name);
+  if (kind.edge > 0) return std::make_shared<Evaluator>(name, std::move(lut));
   return std::make_shared<Evaluator>(name, parameters,
                                      name == "double" ? Precision::dual : Precision::single);
 }
 
 }  // namespace
 
-std::optional<std::size_t> pick_way(std::span<const MeasuredWay> measured, const WayDemand& demand) {
+std::optional<std::size_t> pick_evaluator(std::span<const MeasuredEvaluator> measured,
+                                          const EvaluatorDemand& demand) {
   std::optional<std::size_t> best;
   const auto cost = [&](std::size_t i) {
     return demand.max_error ? measured[i].nanoseconds : measured[i].max_error;
@@ -106,11 +107,12 @@ std::optional<std::size_t> pick_way(std::span<const MeasuredWay> measured, const
   return best;
 }
 
-WayChoice choose_way(const AppearanceParameters& parameters, const WayDemand& demand, bool luts) {
+EvaluatorChoice choose_evaluator(const AppearanceParameters& parameters, const EvaluatorDemand& demand,
+                                 bool luts) {
   Contest contest(parameters);
   contest.enter("float");
   contest.enter("double");
-  WayChoice out;
+  EvaluatorChoice out;
   out.measured = contest.measure();
   for (const char* name : {"lut17", "lut33", "lut65", "lut129"}) {
     if (!luts) break;
@@ -118,8 +120,8 @@ WayChoice choose_way(const AppearanceParameters& parameters, const WayDemand& de
     out.measured = contest.measure();
     if (out.measured.back().nanoseconds > out.measured.front().nanoseconds) break;
   }
-  out.picked = pick_way(out.measured, demand);
-  if (out.picked) out.way = contest.take(*out.picked);
+  out.picked = pick_evaluator(out.measured, demand);
+  if (out.picked) out.kind = contest.take(*out.picked);
   return out;
 }
 
@@ -135,20 +137,20 @@ std::shared_ptr<const Evaluator> ChosenEvaluators::evaluator(const AppearancePar
 
 std::shared_ptr<const Evaluator> ChosenEvaluators::make(const AppearanceParameters& parameters,
                                                         bool receptors, const Notes& notes) {
-  if (way_) {
-    if (way_->edge > 0 && receptors)
+  if (kind_) {
+    if (kind_->edge > 0 && receptors)
       throw Error(ExitCode::usage, "", "no LUT holds signals of receptors: --precision float or double");
-    return evaluator_of(*way_, parameters,
-                        way_->edge > 0 ? prepare_way(parameters, *way_).apply : RowOperator());
+    return evaluator_of(*kind_, parameters,
+                        kind_->edge > 0 ? prepare_evaluator(parameters, *kind_).apply : RowOperator());
   }
-  WayChoice chosen = choose_way(parameters, demand_, !receptors);
+  EvaluatorChoice chosen = choose_evaluator(parameters, demand_, !receptors);
   if (!chosen.picked)
     throw Error(ExitCode::limit, "",
                 fmt::format("no way has {}: {}", demand_text(demand_), measured_text(chosen.measured)));
-  way_ = &way_named(chosen.measured[*chosen.picked].name);
-  notes.note(fmt::format("computed in {}, for {} (measured: {})", way_->name, demand_text(demand_),
+  kind_ = &evaluator_named(chosen.measured[*chosen.picked].name);
+  notes.note(fmt::format("computed in {}, for {} (measured: {})", kind_->name, demand_text(demand_),
                          measured_text(chosen.measured)));
-  const std::shared_ptr<Evaluator> out = evaluator_of(*way_, parameters, std::move(chosen.way.apply));
+  const std::shared_ptr<Evaluator> out = evaluator_of(*kind_, parameters, std::move(chosen.kind.apply));
   out->measured = std::move(chosen.measured);
   return out;
 }

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "adaptation/ladder.h"
+#include "adaptation/named_adaptations.h"
 #include "looks/lut/look_spec.h"
 
 namespace scotopic {

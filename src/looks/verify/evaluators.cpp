@@ -1,4 +1,4 @@
-#include "looks/verify/ways.h"
+#include "looks/verify/evaluators.h"
 
 #include <algorithm>
 #include <chrono>
@@ -101,20 +101,20 @@ void keep_worst(std::vector<WorstPixel>& worst, const WorstPixel& candidate) {
 
 }  // namespace
 
-const Way& way_named(std::string_view name) {
-  for (const Way& way : ways)
-    if (way.name == name) return way;
+const EvaluatorKind& evaluator_named(std::string_view name) {
+  for (const EvaluatorKind& kind : evaluator_kinds)
+    if (kind.name == name) return kind;
   throw Error(ExitCode::internal, "", "no way of computing is called " + std::string(name));
 }
 
-PreparedWay prepare_way(const AppearanceParameters& parameters, const Way& way) {
+PreparedEvaluator prepare_evaluator(const AppearanceParameters& parameters, const EvaluatorKind& kind) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
-  PreparedWay out;
-  if (way.edge == 0) {
-    out.apply = exact_operator(parameters, way.name == "double" ? Precision::dual : Precision::single);
+  PreparedEvaluator out;
+  if (kind.edge == 0) {
+    out.apply = exact_operator(parameters, kind.name == "double" ? Precision::dual : Precision::single);
   } else {
-    const Chain chain = look_chain(parameters, way.edge);
+    const Chain chain = look_chain(parameters, kind.edge);
     for (const Step& step : chain.steps) {
       if (const auto* lut = std::get_if<Lut3DStep>(&step)) out.bytes += lut->values.size() * sizeof(float);
       if (const auto* lut = std::get_if<Lut1DStep>(&step)) out.bytes += lut->values.size() * sizeof(float);
@@ -134,10 +134,11 @@ ErrorStatistics statistics_of(std::vector<double> values) {
   return {sum / static_cast<double>(values.size()), *p99, *std::max_element(p99, values.end())};
 }
 
-WayError way_error(const AppearanceParameters& parameters, const Colours& in, const Colours& got) {
+EvaluatorError evaluator_error(const AppearanceParameters& parameters, const Colours& in,
+                               const Colours& got) {
   const AppearanceReference reference(parameters);
   std::vector<double> differences, pixels, components;
-  WayError out;
+  EvaluatorError out;
   for (std::size_t i = 0; i < in.size(); ++i) {
     const Vec3<double> from = pixel(in, i), is = pixel(got, i), should = reference({from});
     double absolute = 0, ulps = 0;
@@ -159,12 +160,13 @@ WayError way_error(const AppearanceParameters& parameters, const Colours& in, co
   return out;
 }
 
-WayError way_error(const AppearanceParameters& parameters, const RowOperator& way, const Colours& in) {
+EvaluatorError evaluator_error(const AppearanceParameters& parameters, const RowOperator& kind,
+                               const Colours& in) {
   Colours got = in;
   PixelRows rows;
   rows.r = got.r.data(), rows.g = got.g.data(), rows.b = got.b.data(), rows.count = got.size();
-  way(rows, nullptr);
-  return way_error(parameters, in, got);
+  kind(rows, nullptr);
+  return evaluator_error(parameters, in, got);
 }
 
 }  // namespace scotopic

@@ -1,4 +1,4 @@
-#include "looks/lut/ladder.h"
+#include "looks/lut/shipped_looks.h"
 
 #include "stages/limits.h"
 #include "looks/lut/look_chain.h"
@@ -21,7 +21,7 @@ namespace {
 /// "0.1 nit (street lighting)".
 std::string adaptation_name(double adaptation) {
   std::string name = adaptation_text(adaptation) + " nit";
-  for (const LadderStep& step : ladder)
+  for (const NamedAdaptation& step : named_adaptations)
     if (step.adaptation == adaptation) name += " (" + std::string(step.scene) + ")";
   return name;
 }

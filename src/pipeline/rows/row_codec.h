@@ -8,12 +8,12 @@
 
 #include "batch/batch.h"
 #include "color/colour_config.h"
-#include "io/picture.h"
+#include "io/subimage.h"
 #include "pipeline/rows/stages.h"
 
 namespace scotopic {
 
-/// Whether a picture's channels are, or become, signals of cones and rods.
+/// Whether a subimage's channels are, or become, signals of cones and rods.
 inline bool has_receptors(const ColourChannels& channels) noexcept {
   return channels.kind == ColourChannels::Kind::lmsr || channels.kind == ColourChannels::Kind::computed;
 }
@@ -47,7 +47,7 @@ void apply_matrices(const LightMatrices& matrices, bool receptors, LightRow& lig
 /// Divides colour by alpha where that is a number above 0.
 void divide_by_alpha(LightRow& row);
 
-/// Reads rows of one picture as light. Immutable: share it between threads.
+/// Reads rows of one subimage as light. Immutable: share it between threads.
 class LightReader {
  public:
   /// `space` is that of RGB and grey channels. LMSR channels and computed signals become working RGB through

@@ -21,16 +21,16 @@ std::string colour_identity(const ColourConfig& config);
 
 /// What the recipes of all images of one command have in common: version, verb, options (one that names a
 /// file with the file's contents), and the job's own settings.
-std::string common_recipe(const std::string& verb, const FrameJob& job,
-                          const std::vector<std::string>& typed);
+std::string common_provenance(const std::string& verb, const FrameJob& job,
+                              const std::vector<std::string>& typed);
 
 /// SHA-256 of that, of every byte of the input, and of both files' names without folders (rules of a colour
 /// config may go by them). Error(input) for an input that is missing.
-std::string recipe_of(const std::string& common, const FramePaths& paths);
+std::string provenance_of(const std::string& common, const FramePaths& paths);
 
 /// Whether the file is there, has this recipe, and is whole: its header, and the last rows of its pictures
 /// are read.
-bool holds_recipe(const std::string& file, const std::string& recipe, const Limits& limits);
+bool holds_provenance(const std::string& file, const std::string& provenance, const Limits& limits);
 
 /// Files that an input stands for: itself, or those of a pattern of wavelengths. Error(input) for one that is
 /// missing.

@@ -13,22 +13,22 @@
 namespace scotopic {
 
 /// Adds --adaptation-from to the operator's options.
-void add_shot_options(CLI::App& verb, std::string& adaptation_from);
+void add_adaptation_from_option(CLI::App& verb, std::string& adaptation_from);
 
 /// Error(usage) for --adaptation-from beside a number in --adaptation, or "frames" without --frames.
-void check_shot(const std::string& adaptation_from, const OperatorChoice& choice,
-                const std::vector<Frame>& frames);
+void check_shot_adaptation(const std::string& adaptation_from, const OperatorChoice& choice,
+                           const std::vector<Frame>& frames);
 
 /// The adaptation luminances of a shot's frames, cd/m2.
-struct ShotLight {
+struct ShotAdaptation {
   double median = 0, least = 0, greatest = 0;
   std::size_t frames = 0;
 };
 /// Of an even number of frames the median is the geometric mean of the middle two. At least one frame.
-ShotLight shot_light(std::vector<double> adaptations);
+ShotAdaptation shot_adaptation(std::vector<double> adaptations);
 
 /// What explain --json says of it, and apply --adaptation-from FILE reads.
-nlohmann::ordered_json shot_json(const ShotLight& shot);
+nlohmann::ordered_json shot_json(const ShotAdaptation& shot);
 
 /// What --adaptation-from asks for. One adaptation for all frames is set in `settings`: the median of all
 /// frames' own, each metered as --adaptation says ("frames"), or the one that explain found (FILE, its
@@ -36,8 +36,9 @@ nlohmann::ordered_json shot_json(const ShotLight& shot);
 /// (FILE, parse_adaptation_keys). For `frames` and `track` the unit has to be known: Error(usage) names a
 /// frame that does not tell it. Without
 /// --adaptation-from, and where each frame would be metered by itself, warns that the result may flicker.
-std::optional<AdaptationTrack> settle_shot(const std::string& adaptation_from, ImageSettings& settings,
-                                           const std::vector<Frame>& frames, const FrameOptions& options,
-                                           const Console& console);
+std::optional<AdaptationTrack> resolve_shot_adaptation(const std::string& adaptation_from,
+                                                       ImageSettings& settings,
+                                                       const std::vector<Frame>& frames,
+                                                       const FrameOptions& options, const Console& console);
 
 }  // namespace scotopic

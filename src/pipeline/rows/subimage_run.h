@@ -1,4 +1,4 @@
-// One picture's way through all stages: bands of the file in, bands of the output out.
+// One subimage's way through all stages: bands of the file in, bands of the output out.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,16 @@
 
 #include "pipeline/apply_image.h"
 #include "pipeline/rows/acuity_rows.h"
-#include "pipeline/rows/light_path.h"
+#include "pipeline/rows/row_codec.h"
 
 namespace scotopic {
 
 /// What it is given must outlive it. Rows are worked on by all threads.
-class PictureRun {
+class SubimageRun {
  public:
   /// `out` is of `layout`, and no copy.
-  PictureRun(const PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-             const ImageStages& stages, const OutputPicture& out);
+  SubimageRun(const PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
+              const ImageStages& stages, const OutputSubimage& out);
 
   /// Fills `out` from `in`, where there are no filters; `interleaved` as the sink wants it.
   void run(const Band& in, Band& out, bool interleaved) const;
@@ -62,9 +62,9 @@ class PictureRun {
   void set_alpha(bool linear);
   void find_others();
 
-  const LightPicture& light_;
-  const Picture& source_picture_;
-  const OutputPicture& out_;
+  const LightSubimage& light_;
+  const Subimage& source_subimage_;
+  const OutputSubimage& out_;
   const ImageStages& stages_;
   bool wraps_;
   const LightPlanes* frame_ = nullptr;

@@ -15,19 +15,19 @@
 namespace scotopic {
 
 /// One way.
-struct Way {
+struct EvaluatorKind {
   std::string_view name;  ///< as --precision says it
   std::size_t edge;       ///< of the LUT, which OpenColorIO applies; 0: the operator itself
 };
 
-inline constexpr std::array<Way, 6> ways = {
+inline constexpr std::array<EvaluatorKind, 6> evaluator_kinds = {
     {{"double", 0}, {"float", 0}, {"lut129", 129}, {"lut65", 65}, {"lut33", 33}, {"lut17", 17}}};
 
 /// The way of that name; throws Error(ExitCode::internal) if `ways` has none.
-const Way& way_named(std::string_view name);
+const EvaluatorKind& evaluator_named(std::string_view name);
 
 /// A way with everything worked out that does not depend on the pixel.
-struct PreparedWay {
+struct PreparedEvaluator {
   RowOperator apply;      ///< any number of threads at once
   double seconds = 0;     ///< that preparing took: baking, for a LUT
   std::size_t bytes = 0;  ///< of the LUT
@@ -35,7 +35,7 @@ struct PreparedWay {
 
 /// All ways leave alone what the operator leaves alone, bit for bit: pixels that are not finite and photopic
 /// ones. A LUT takes RGB only: signals of receptors, where rows have them, are not looked at.
-PreparedWay prepare_way(const AppearanceParameters& parameters, const Way& way);
+PreparedEvaluator prepare_evaluator(const AppearanceParameters& parameters, const EvaluatorKind& kind);
 
 /// A quantity's statistics over pixels.
 struct ErrorStatistics {
@@ -51,7 +51,7 @@ struct WorstPixel {
 };
 
 /// How far a way is from the reference, in double, over some colours; results are float.
-struct WayError {
+struct EvaluatorError {
   ErrorStatistics difference;  ///< CIEDE2000 exposed to Y = .184 (appearance/colour_difference.h)
   ErrorStatistics pixel;       ///< greatest error of a component over the pixel's largest, in or out
   ErrorStatistics
@@ -60,9 +60,10 @@ struct WayError {
 };
 
 /// Error of planar results `got` for colours `in`.
-WayError way_error(const AppearanceParameters& parameters, const Colours& in, const Colours& got);
+EvaluatorError evaluator_error(const AppearanceParameters& parameters, const Colours& in, const Colours& got);
 
 /// The same of a way on these colours.
-WayError way_error(const AppearanceParameters& parameters, const RowOperator& way, const Colours& in);
+EvaluatorError evaluator_error(const AppearanceParameters& parameters, const RowOperator& kind,
+                               const Colours& in);
 
 }  // namespace scotopic

@@ -1,4 +1,4 @@
-#include "pipeline/rows/light_path.h"
+#include "pipeline/rows/row_codec.h"
 
 #include <algorithm>
 #include <cmath>

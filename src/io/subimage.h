@@ -64,12 +64,12 @@ struct Attribute {
 };
 
 /// A part of a multi-part EXR, a page of a TIFF, or one resolution of a tiled EXR.
-struct Picture {
+struct Subimage {
   int part = 0;
   int level_x = 0;
   int level_y = 0;
   std::string name;  ///< of the part, if it has one
-  std::string view;  ///< of a stereo picture, if it is one of its parts
+  std::string view;  ///< of a stereo subimage, if it is one of its parts
   Window data;
   Window display;
   std::vector<Channel> channels;
@@ -107,7 +107,7 @@ struct ChannelRows {
   NativeRow row(int r) const { return {data + r * row_stride, stride, type}; }
 };
 
-/// Rows y0 <= y < y0 + rows of a picture, all channels, in the types of the file.
+/// Rows y0 <= y < y0 + rows of a subimage, all channels, in the types of the file.
 struct Band {
   int y0 = 0;
   int rows = 0;
@@ -125,13 +125,13 @@ struct Band {
 };
 
 /// Rows of one band: whole chunks, about 8 MiB, at least one chunk. Depends on the width, not on the height.
-int band_rows(const Picture& picture);
+int band_rows(const Subimage& subimage);
 
 /// Bytes of one row, all channels.
-std::size_t row_bytes(const Picture& picture);
+std::size_t row_bytes(const Subimage& subimage);
 
-/// Bytes that reading the picture and writing it again plans for: three bands (read, written, and what the
+/// Bytes that reading the subimage and writing it again plans for: three bands (read, written, and what the
 /// libraries hold of them), and the library's own.
-std::int64_t planned_bytes(const Picture& picture);
+std::int64_t planned_bytes(const Subimage& subimage);
 
 }  // namespace scotopic

@@ -1,4 +1,4 @@
-#include "io/picture.h"
+#include "io/subimage.h"
 
 #include <algorithm>
 
@@ -48,23 +48,24 @@ void Band::allocate_interleaved(const std::vector<Channel>& types, int first_row
   }
 }
 
-std::size_t row_bytes(const Picture& picture) {
-  std::size_t pixel = picture.computed_bytes;
-  for (const Channel& channel : picture.channels) pixel += size_of(channel.type);
-  return pixel * static_cast<std::size_t>(picture.data.width());
+std::size_t row_bytes(const Subimage& subimage) {
+  std::size_t pixel = subimage.computed_bytes;
+  for (const Channel& channel : subimage.channels) pixel += size_of(channel.type);
+  return pixel * static_cast<std::size_t>(subimage.data.width());
 }
 
-int band_rows(const Picture& picture) {
+int band_rows(const Subimage& subimage) {
   const std::size_t chunk =
-      std::max<std::size_t>(1, row_bytes(picture) * static_cast<std::size_t>(picture.chunk_rows));
+      std::max<std::size_t>(1, row_bytes(subimage) * static_cast<std::size_t>(subimage.chunk_rows));
   const auto chunks = static_cast<int>(std::clamp<std::size_t>(band_bytes / chunk, 1, 1024));
-  const std::int64_t rows = std::int64_t{chunks} * picture.chunk_rows;
-  return static_cast<int>(std::min<std::int64_t>(rows, std::max(1, picture.data.height())));
+  const std::int64_t rows = std::int64_t{chunks} * subimage.chunk_rows;
+  return static_cast<int>(std::min<std::int64_t>(rows, std::max(1, subimage.data.height())));
 }
 
-std::int64_t planned_bytes(const Picture& picture) {
+std::int64_t planned_bytes(const Subimage& subimage) {
   constexpr std::int64_t bands = 3;
-  return bands * static_cast<std::int64_t>(row_bytes(picture)) * band_rows(picture) + picture.library_bytes;
+  return bands * static_cast<std::int64_t>(row_bytes(subimage)) * band_rows(subimage) +
+         subimage.library_bytes;
 }
 
 }  // namespace scotopic

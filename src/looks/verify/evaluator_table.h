@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "looks/verify/timing.h"
-#include "looks/verify/ways.h"
+#include "looks/verify/evaluators.h"
 
 namespace scotopic {
 
 /// Ways of one group do the same thing, and can be compared.
-struct WayRow {
+struct EvaluatorRow {
   std::string group;
   std::string name;
-  std::optional<WayError> error;
+  std::optional<EvaluatorError> error;
   RunTime time;             ///< per pixel
   double memcpy_ratio = 0;  ///< of medians, in one run; memcpy moves RGBA float
   double seconds = 0;       ///< to prepare: baking
@@ -24,16 +24,16 @@ struct WayRow {
 };
 
 /// Sets `dominated` by median time and mean and greatest difference. Rows without an error dominate nothing.
-void mark_dominated(std::vector<WayRow>& rows);
+void mark_dominated(std::vector<EvaluatorRow>& rows);
 
 /// A row before it is timed.
 struct Contender {
-  WayRow row;
+  EvaluatorRow row;
   TimedRun run;
 };
 
 /// Times all in turn, beside a memcpy of `pixels` RGBA float pixels, which is the first row of the result.
-std::vector<WayRow> time_contenders(const std::vector<Contender>& contenders, std::size_t pixels, int rounds,
-                                    const std::function<void(int, int)>& done);
+std::vector<EvaluatorRow> time_contenders(const std::vector<Contender>& contenders, std::size_t pixels,
+                                          int rounds, const std::function<void(int, int)>& done);
 
 }  // namespace scotopic

@@ -1,4 +1,4 @@
-#include "cli/sequence/shot.h"
+#include "cli/sequence/shot_adaptation.h"
 
 #include <fmt/format.h>
 
@@ -80,7 +80,7 @@ std::string contents_of(const std::string& file) {
 }
 
 /// What explain --json says of a shot; nullopt: it says nothing of one.
-std::optional<double> shot_of(const std::string& text, const std::string& file) {
+std::optional<double> shot_adaptation_in(const std::string& text, const std::string& file) {
   const auto json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object() || !json.contains("shot")) return std::nullopt;
   const auto number = json["shot"].is_object() && json["shot"].contains("adaptation")
@@ -131,7 +131,7 @@ AdaptationTrack track_from(std::vector<AdaptationKey> keys, const ImageSettings&
 
 }  // namespace
 
-void add_shot_options(CLI::App& verb, std::string& adaptation_from) {
+void add_adaptation_from_option(CLI::App& verb, std::string& adaptation_from) {
   verb.add_option(
           "--adaptation-from", adaptation_from,
           "One adaptation for all frames: frames (the median of theirs), or a file that explain --json wrote "
@@ -142,8 +142,8 @@ void add_shot_options(CLI::App& verb, std::string& adaptation_from) {
       ->group("What is seen");
 }
 
-void check_shot(const std::string& adaptation_from, const OperatorChoice& choice,
-                const std::vector<Frame>& frames) {
+void check_shot_adaptation(const std::string& adaptation_from, const OperatorChoice& choice,
+                           const std::vector<Frame>& frames) {
   if (adaptation_from.empty()) return;
   if (choice.adaptation)
     throw Error(ExitCode::usage, "",
@@ -152,25 +152,25 @@ void check_shot(const std::string& adaptation_from, const OperatorChoice& choice
     throw Error(ExitCode::usage, "", "--adaptation-from " + adaptation_from + " needs --frames");
 }
 
-ShotLight shot_light(std::vector<double> a) {
+ShotAdaptation shot_adaptation(std::vector<double> a) {
   std::sort(a.begin(), a.end());
   const std::size_t n = a.size();
   const double median = n % 2 == 1 ? a[n / 2] : std::sqrt(a[n / 2 - 1]) * std::sqrt(a[n / 2]);
   return {median, a.front(), a.back(), n};
 }
 
-nlohmann::ordered_json shot_json(const ShotLight& shot) {
+nlohmann::ordered_json shot_json(const ShotAdaptation& shot) {
   return {{"adaptation", shot.median},
           {"least", shot.least},
           {"greatest", shot.greatest},
           {"frames", shot.frames}};
 }
 
-std::optional<AdaptationTrack> settle_shot(const std::string& from, ImageSettings& settings,
-                                           const std::vector<Frame>& frames, const FrameOptions& options,
-                                           const Console& console) {
+std::optional<AdaptationTrack> resolve_shot_adaptation(const std::string& from, ImageSettings& settings,
+                                                       const std::vector<Frame>& frames,
+                                                       const FrameOptions& options, const Console& console) {
   OperatorChoice& choice = settings.choice;
-  check_shot(from, choice, frames);
+  check_shot_adaptation(from, choice, frames);
   if (from.empty()) {
     if (frames.size() > 1 && !choice.adaptation)
       console.note(
@@ -185,7 +185,7 @@ std::optional<AdaptationTrack> settle_shot(const std::string& from, ImageSetting
     std::vector<double> adaptations;
     for (const AdaptationKey& key : metered_keys(settings, frames, options, console))
       adaptations.push_back(key.luminance);
-    const ShotLight shot = shot_light(adaptations);
+    const ShotAdaptation shot = shot_adaptation(adaptations);
     choice.adaptation = shot.median;
     choice.adaptation_source =
         fmt::format("median of {} frames, {:.4g} to {:.4g}", shot.frames, shot.least, shot.greatest);
@@ -194,7 +194,7 @@ std::optional<AdaptationTrack> settle_shot(const std::string& from, ImageSetting
   const bool track = from.rfind(track_of, 0) == 0;
   const std::string file = track ? from.substr(track_of.size()) : from;
   const std::string text = contents_of(file);
-  if (const std::optional<double> shot = track ? std::nullopt : shot_of(text, file)) {
+  if (const std::optional<double> shot = track ? std::nullopt : shot_adaptation_in(text, file)) {
     choice.adaptation = *shot;
     choice.adaptation_source = "the shot's, from " + file;
     return std::nullopt;

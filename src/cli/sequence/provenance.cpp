@@ -1,4 +1,4 @@
-#include "cli/sequence/recipe.h"
+#include "cli/sequence/provenance.h"
 
 #include <sys/stat.h>
 
@@ -64,8 +64,8 @@ std::string last_value(const std::string& text) {
   return text.substr(start, text.find('\n', start) - start);
 }
 
-std::string recipe_in(const PixelSource& source, std::size_t picture) {
-  for (const Attribute& a : source.attributes(picture)) {
+std::string provenance_in(const PixelSource& source, std::size_t subimage) {
+  for (const Attribute& a : source.attributes(subimage)) {
     const auto* text = std::get_if<std::string>(&a.value);
     if (!text) continue;
     if (a.name == provenance_attribute) return *text;
@@ -76,11 +76,11 @@ std::string recipe_in(const PixelSource& source, std::size_t picture) {
 }
 
 void read_last_rows(PixelSource& source, std::size_t index) {
-  const Picture& picture = source.pictures()[index];
-  if (!picture.readable) return;
+  const Subimage& subimage = source.subimages()[index];
+  if (!subimage.readable) return;
   Band band;
   int y0 = 0, rows = 0;
-  each_band(picture, picture.descending, [&](int first, int count) { y0 = first, rows = count; });
+  each_band(subimage, subimage.descending, [&](int first, int count) { y0 = first, rows = count; });
   source.read(index, y0, rows, band);
 }
 
@@ -110,8 +110,8 @@ std::vector<std::string> input_files(const std::string& input) {
 
 std::string colour_identity(const ColourConfig& config) { return config.ocio()->getCacheID(); }
 
-std::string common_recipe(const std::string& verb, const FrameJob& job,
-                          const std::vector<std::string>& typed) {
+std::string common_provenance(const std::string& verb, const FrameJob& job,
+                              const std::vector<std::string>& typed) {
   std::string text =
       line("scotopic", SCOTOPIC_VERSION) + line("verb", verb) + line("settings", job.settings());
   for (const std::string& option : typed) {
@@ -122,20 +122,20 @@ std::string common_recipe(const std::string& verb, const FrameJob& job,
   return text;
 }
 
-std::string recipe_of(const std::string& common, const FramePaths& paths) {
+std::string provenance_of(const std::string& common, const FramePaths& paths) {
   std::string text = common + line("output", file_name(paths.output)) + line("input", file_name(paths.input));
   for (const std::string& file : input_files(paths.input))
     text += line(file_name(file), sha256_of_file(file));
   return sha256(text);
 }
 
-bool holds_recipe(const std::string& file, const std::string& recipe, const Limits& limits) {
+bool holds_provenance(const std::string& file, const std::string& provenance, const Limits& limits) {
   if (!is_file(file)) return false;
   try {
     const std::unique_ptr<PixelSource> source = open_source(file, limits);
     bool found = false;
-    for (std::size_t i = 0; i < source->pictures().size(); ++i) {
-      found = found || recipe_in(*source, i) == recipe;
+    for (std::size_t i = 0; i < source->subimages().size(); ++i) {
+      found = found || provenance_in(*source, i) == provenance;
       read_last_rows(*source, i);
     }
     return found;

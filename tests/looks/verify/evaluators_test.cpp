@@ -1,4 +1,4 @@
-#include "looks/verify/ways.h"
+#include "looks/verify/evaluators.h"
 
 #include <gtest/gtest.h>
 
@@ -31,9 +31,9 @@ PixelRows rows_of(Colours& c) {
   return out;
 }
 
-TEST(Ways, each_is_as_exact_as_it_says) {
+TEST(Evaluators, each_is_as_exact_as_it_says) {
   struct Row {
-    const char* way;
+    const char* kind;
     double pixel;       // of the pixel's largest component
     double difference;  // CIEDE2000 of 99 % of the colours
   };
@@ -45,38 +45,39 @@ TEST(Ways, each_is_as_exact_as_it_says) {
                           {"lut17", 0.15, 1.5}};
   for (const double adaptation : {0.001, 0.01, 0.1, 1.0})
     for (const Row& row : rows) {
-      const PreparedWay way = prepare_way(at(adaptation), way_named(row.way));
-      const WayError error = way_error(at(adaptation), way.apply, colours(20000));
+      const PreparedEvaluator kind = prepare_evaluator(at(adaptation), evaluator_named(row.kind));
+      const EvaluatorError error = evaluator_error(at(adaptation), kind.apply, colours(20000));
       const WorstPixel& worst = error.worst.front();
       std::printf(
           "La %-6g %-7s pixel %.3g, dE00 %.3g (99 %% %.3g), %.3g float ulps; worst (%.9g, %.9g, %.9g)\n",
-          adaptation, row.way, error.pixel.max, error.difference.max, error.difference.p99,
+          adaptation, row.kind, error.pixel.max, error.difference.max, error.difference.p99,
           error.component.max, worst.in[0], worst.in[1], worst.in[2]);
-      EXPECT_LE(error.pixel.max, row.pixel) << row.way;
-      EXPECT_LE(error.difference.p99, row.difference) << row.way;
+      EXPECT_LE(error.pixel.max, row.pixel) << row.kind;
+      EXPECT_LE(error.difference.p99, row.difference) << row.kind;
       EXPECT_DOUBLE_EQ(worst.error, error.pixel.max);
     }
 }
 
-TEST(Ways, double_is_within_an_ulp_of_float_in_every_component) {
+TEST(Evaluators, double_is_within_an_ulp_of_float_in_every_component) {
   for (const double adaptation : {0.001, 0.01, 0.1, 1.0, 4.9}) {
-    const PreparedWay way = prepare_way(at(adaptation), way_named("double"));
-    const WayError error = way_error(at(adaptation), way.apply, colours(50000));
+    const PreparedEvaluator kind = prepare_evaluator(at(adaptation), evaluator_named("double"));
+    const EvaluatorError error = evaluator_error(at(adaptation), kind.apply, colours(50000));
     std::printf("La %-6g %.9f float ulps\n", adaptation, error.component.max);
     EXPECT_LE(error.component.max, 1);
   }
 }
 
-TEST(Ways, a_finer_lut_is_closer) {
+TEST(Evaluators, a_finer_lut_is_closer) {
   double coarser = std::numeric_limits<double>::infinity();
   for (const char* name : {"lut17", "lut33", "lut65"}) {
-    const WayError error = way_error(at(0.05), prepare_way(at(0.05), way_named(name)).apply, colours(20000));
+    const EvaluatorError error =
+        evaluator_error(at(0.05), prepare_evaluator(at(0.05), evaluator_named(name)).apply, colours(20000));
     EXPECT_LT(error.difference.mean, 0.6 * coarser) << name;
     coarser = error.difference.mean;
   }
 }
 
-TEST(Ways, every_way_leaves_photopic_and_non_finite_pixels_alone_bit_for_bit) {
+TEST(Evaluators, every_way_leaves_photopic_and_non_finite_pixels_alone_bit_for_bit) {
   constexpr float inf = std::numeric_limits<float>::infinity();
   const float nan = std::bit_cast<float>(0x7fa12345u);  // signalling, with a payload
   const auto p = at(0.1);
@@ -88,34 +89,34 @@ TEST(Ways, every_way_leaves_photopic_and_non_finite_pixels_alone_bit_for_bit) {
       in.g.push_back(position == 1 || odd == photopic || odd == 2 * photopic ? odd : 0.01f);
       in.b.push_back(position == 2 || odd == photopic ? odd : 0.01f);
     }
-  for (const Way& way : ways) {
-    if (way.edge == 129) continue;  // as lut65, and slow to bake
+  for (const EvaluatorKind& kind : evaluator_kinds) {
+    if (kind.edge == 129) continue;  // as lut65, and slow to bake
     Colours out = in;
     std::vector<std::uint8_t> touched(in.size(), 9);
-    prepare_way(p, way).apply(rows_of(out), touched.data());
+    prepare_evaluator(p, kind).apply(rows_of(out), touched.data());
     for (std::size_t i = 0; i < in.size(); ++i) {
-      EXPECT_EQ(touched[i], 0) << way.name << ' ' << i;
+      EXPECT_EQ(touched[i], 0) << kind.name << ' ' << i;
       for (const auto& [before, after] : {std::pair(&in.r, &out.r), {&in.g, &out.g}, {&in.b, &out.b}})
-        EXPECT_EQ(std::memcmp(&(*before)[i], &(*after)[i], sizeof(float)), 0) << way.name << ' ' << i;
+        EXPECT_EQ(std::memcmp(&(*before)[i], &(*after)[i], sizeof(float)), 0) << kind.name << ' ' << i;
     }
   }
 }
 
-TEST(Ways, all_touch_the_same_pixels) {
+TEST(Evaluators, all_touch_the_same_pixels) {
   const auto p = at(0.5);
   const Colours in = colours(5000);
   std::vector<std::uint8_t> expected(in.size());
   Colours work = in;
-  prepare_way(p, way_named("float")).apply(rows_of(work), expected.data());
+  prepare_evaluator(p, evaluator_named("float")).apply(rows_of(work), expected.data());
   EXPECT_GT(std::count(expected.begin(), expected.end(), 0), 500);
   EXPECT_GT(std::count(expected.begin(), expected.end(), 1), 500);
   std::vector<std::uint8_t> touched(in.size());
   work = in;
-  prepare_way(p, way_named("lut17")).apply(rows_of(work), touched.data());
+  prepare_evaluator(p, evaluator_named("lut17")).apply(rows_of(work), touched.data());
   EXPECT_EQ(touched, expected);
 }
 
-TEST(Ways, statistics_are_those_of_the_numbers) {
+TEST(Evaluators, statistics_are_those_of_the_numbers) {
   std::vector<double> numbers;
   for (int i = 1; i <= 1000; ++i) numbers.push_back(i);
   const ErrorStatistics s = statistics_of(numbers);
