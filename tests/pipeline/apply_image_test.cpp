@@ -73,7 +73,7 @@ std::vector<std::pair<std::string, std::vector<TestPart>>> layouts() {
 /// Every channel of every picture, but those named.
 void expect_same_bits(const std::string& a, const std::string& b, const std::vector<std::string>& but = {}) {
   ExrSource source(a, Limits());
-  for (const Picture& p : source.subimages())
+  for (const Subimage& p : source.subimages())
     for (const Channel& channel : p.channels) {
       if (std::find(but.begin(), but.end(), channel.name) != but.end()) continue;
       EXPECT_EQ(read_bits(a, p.part, p.level_x, p.level_y, channel.name),
