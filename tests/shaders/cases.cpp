@@ -67,9 +67,9 @@ NightDisplayParameters display_at(const ShaderSpec& spec, const SliderValues& s)
 }
 
 void add_levels(Pixels& out, const std::vector<Vec3<double>>& hues) {
-  for (int half_stop = -32; half_stop <= 24; ++half_stop)
+  for (int stop = -16; stop <= 12; ++stop)
     for (const Vec3<double>& hue : hues)
-      for (const double x : hue) out.push_back(static_cast<float>(x * std::exp2(half_stop / 2.0)));
+      for (const double x : hue) out.push_back(static_cast<float>(x * std::exp2(stop)));
 }
 
 }  // namespace

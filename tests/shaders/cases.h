@@ -21,7 +21,7 @@ struct ShaderCase {
 };
 const std::vector<ShaderCase>& shader_cases();
 
-/// Light: 28 stops, 2^-16 to 2^12 in half stops of the largest component, of greys, primaries and what is
+/// Light: 28 stops, 2^-16 to 2^12 in stops of the largest component, of greys, primaries and what is
 /// between them.
 const Pixels& light();
 /// Colours outside the gamut over the same stops: one or two components below 0, luminance above.
