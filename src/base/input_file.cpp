@@ -67,8 +67,11 @@ std::string read_input_file(const std::string& file, ExitCode code, std::int64_t
 FileState::FileState(const std::string& file) : file_(file) {
   struct stat info = {};
   if (stat(file.c_str(), &info) != 0) return;  // whoever opens it says so
-  device_ = info.st_dev, inode_ = info.st_ino;
-  size_ = info.st_size, seconds_ = info.st_mtim.tv_sec, nanoseconds_ = info.st_mtim.tv_nsec;
+  device_ = info.st_dev;
+  inode_ = info.st_ino;
+  size_ = info.st_size;
+  seconds_ = info.st_mtim.tv_sec;
+  nanoseconds_ = info.st_mtim.tv_nsec;
 }
 
 void FileState::require_unchanged() const {

@@ -84,7 +84,8 @@ void ignore_environment() {
 }  // namespace
 
 Process::Process(bool json) {
-  ends_in_json = json, running = true;
+  ends_in_json = json;
+  running = true;
   static const int registered = std::atexit(end_on_exit);
   (void)registered;
   open_standard_streams();

@@ -10,7 +10,7 @@
 #include "cli/options/image_options.h"
 #include "cli/program.h"
 #include "cli/options/values.h"
-#include "pipeline/rows/row_codec.h"
+#include "pipeline/rows/light_rows.h"
 
 namespace scotopic {
 namespace {
@@ -37,26 +37,16 @@ OnImage compare_on_image(const CheckOptions& o, const ColourConfig& config, cons
   const std::unique_ptr<PixelSource> source = open_source(o.picture, o.image.limits);
   const ImageLayout layout = read_layout(*source, config, understand(o.image));
   Comparison comparison(spec.parameters.xyz_from_rgb);
-  const LightSubimage& light = layout.light.front();
-  const Subimage& picture = source->subimages()[light.index];
-  const LightReader reader(light.channels, config, light.space);
-  const int step = band_rows(picture);
-  Band band;
-  LightRow row(static_cast<std::size_t>(picture.data.width()));
-  for (int y = picture.data.y0; y < picture.data.y1; y += step) {
-    const int rows = std::min(step, picture.data.y1 - y);
-    source->read(light.index, y, rows, band);
-    for (int i = 0; i < rows; ++i) {
-      reader.read(band, i, row);
-      const Colours in{row.r, row.g, row.b};
-      Colours got = in;
-      apply(processor, got);
-      comparison.add(in, exact(spec.parameters, in), got);
-    }
-  }
+  std::size_t width = 0;
+  each_light_row(*source, layout, config, [&](const LightRow& row) {
+    const Colours in{row.r, row.g, row.b};
+    Colours got = in;
+    apply(processor, got);
+    comparison.add(in, exact(spec.parameters, in), got);
+    width = in.size();
+  });
   source->require_unchanged();
   const BakeError error = comparison.result();
-  const auto width = static_cast<std::size_t>(picture.data.width());
   return {error, fmt::format(", pixel {} {}", error.worst_index % width, error.worst_index / width)};
 }
 

@@ -20,8 +20,7 @@
 #include "cli/options/spectral_options.h"
 #include "cli/report/time_report.h"
 #include "cli/options/values.h"
-#include "io/pixels/row_bands.h"
-#include "pipeline/rows/row_codec.h"
+#include "pipeline/rows/light_rows.h"
 
 namespace scotopic {
 namespace {
@@ -48,21 +47,12 @@ struct Subject {
 };
 
 TimedPicture read_picture(PixelSource& source, const ImageLayout& layout, const ColourConfig& config) {
-  const LightSubimage& light = layout.light.front();
-  const Subimage& picture = source.subimages()[light.index];
-  const LightReader reader(light.channels, config, light.space);
   TimedPicture out;
-  out.width = static_cast<std::size_t>(picture.data.width());
-  each_band(picture, false, [&](int y0, int rows) {
-    Band band;
-    source.read(light.index, y0, rows, band);
-    LightRow row(out.width);
-    for (int y = 0; y < rows; ++y) {
-      reader.read(band, y, row);
-      out.pixels.r.insert(out.pixels.r.end(), row.r.begin(), row.r.end());
-      out.pixels.g.insert(out.pixels.g.end(), row.g.begin(), row.g.end());
-      out.pixels.b.insert(out.pixels.b.end(), row.b.begin(), row.b.end());
-    }
+  each_light_row(source, layout, config, [&](const LightRow& row) {
+    out.width = row.r.size();
+    out.pixels.r.insert(out.pixels.r.end(), row.r.begin(), row.r.end());
+    out.pixels.g.insert(out.pixels.g.end(), row.g.begin(), row.g.end());
+    out.pixels.b.insert(out.pixels.b.end(), row.b.begin(), row.b.end());
   });
   return out;
 }
@@ -158,8 +148,7 @@ int run_time(const TimeOptions& options) {
   std::vector<Contender> contenders =
       operator_contenders(subject.parameters, picture, subject.colours, threads);
   for (auto& more :
-       {rod_contenders(subject.parameters, picture, subject.colours), spectral_contenders(subject.parameters),
-        acuity_contenders(subject.parameters, subject.picture)})
+       {spectral_contenders(subject.parameters), acuity_contenders(subject.parameters, subject.picture)})
     contenders.insert(contenders.end(), more.begin(), more.end());
 
   TimeConditions& c = subject.conditions;

@@ -57,8 +57,11 @@ const FormatsModule* load(const std::string& file) {
   const EmptyEnvironment loading;
   std::string reason;
   for (const char* name : {"scotopic_formats.so", SCOTOPIC_MODULE_FOLDER "/scotopic_formats.so"}) {
-    if (void* const module = dlopen(name, RTLD_NOW | RTLD_LOCAL))
-      return static_cast<const FormatsModule*>(dlsym(module, "scotopic_formats"));
+    if (void* const module = dlopen(name, RTLD_NOW | RTLD_LOCAL)) {
+      const auto* const formats = static_cast<const FormatsModule*>(dlsym(module, "scotopic_formats"));
+      formats->prepare();
+      return formats;
+    }
     const char* const said = dlerror();
     reason += (reason.empty() ? "" : "; ") + std::string(said ? said : "no reason given");
   }

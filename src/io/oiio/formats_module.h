@@ -12,6 +12,8 @@ namespace scotopic {
 
 /// What the module offers; it exports one, named scotopic_formats.
 struct FormatsModule {
+  /// Once, before the others: what is set for all of the process.
+  void (*prepare)();
   std::unique_ptr<PixelSource> (*open_source)(const std::string& file, const std::string& format,
                                               const Limits& limits);
   std::unique_ptr<PixelSink> (*open_sink)(const std::string& format, OutputFile& file, PixelSource& source,

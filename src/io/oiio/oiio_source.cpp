@@ -64,14 +64,6 @@ std::int64_t bytes_held_by_oiio(const OIIO::ImageSpec& spec) {
   return pixel * spec.tile_width * std::max(1, spec.tile_height);
 }
 
-/// Its own limits do not name our options: check_limits decides. Which of them there are depends on its
-/// release.
-void lift_limits_of_oiio() {
-  OIIO::attribute("limits:channels", 65535);  // as many as a TIFF can say
-  OIIO::attribute("limits:imagesize_MB", INT32_MAX);
-  OIIO::attribute("limits:resolution", INT32_MAX);
-}
-
 /// Grey images name their channel in many ways; EXR's is Y.
 void name_grey(std::vector<Channel>& channels) {
   const bool alpha = channels.size() == 2 && channels[1].name == "A";
@@ -88,7 +80,6 @@ OiioSource::OiioSource(const std::string& file, const std::string& format, const
   OIIO::ImageSpec spec;
   const StderrHeld held;
   watch(file);
-  lift_limits_of_oiio();
   scans_ = scan_image(file, format);
   if (!input_->open(file, spec, hints)) fail("is not a valid " + format + " file: " + input_->geterror());
   for (int page = 0; input_->seek_subimage(page, 0); ++page) {

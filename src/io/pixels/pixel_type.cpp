@@ -1,8 +1,7 @@
 #include "io/pixels/pixel_type.h"
 
-#include <Imath/half.h>
-
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -32,12 +31,6 @@ T quantise(float value) {
   return static_cast<T>(std::nearbyint(std::min(1.0, static_cast<double>(value)) * scale));
 }
 
-std::uint16_t half_bits(float value) {
-  // HALF_MAX; from here to Inf rounding would give Inf.
-  if (std::isfinite(value)) value = std::clamp(value, -65504.0f, 65504.0f);
-  return Imath::half(value).bits();
-}
-
 template <typename Convert>
 void each_load(const NativeRow& row, std::size_t count, float* out, Convert convert) {
   const std::byte* at = row.data;
@@ -48,6 +41,29 @@ template <typename Convert>
 void each_store(const float* values, std::size_t count, const NativeRow& row, Convert convert) {
   std::byte* at = row.data;
   for (std::size_t i = 0; i < count; ++i, at += row.stride) store(at, convert(values[i]));
+}
+
+// Halves that lie apart go through blocks that do not.
+using HalfBlock = std::array<std::uint16_t, 256>;
+
+void load_halves(const NativeRow& row, std::size_t count, float* out) {
+  HalfBlock block;
+  for (std::size_t at = 0; at < count; at += block.size()) {
+    const std::size_t n = std::min(block.size(), count - at);
+    const std::byte* from = row.data + static_cast<std::ptrdiff_t>(at) * row.stride;
+    for (std::size_t i = 0; i < n; ++i, from += row.stride) block[i] = load<std::uint16_t>(from);
+    floats_from_halves(block.data(), n, out + at);
+  }
+}
+
+void store_halves(const float* values, std::size_t count, const NativeRow& row) {
+  HalfBlock block;
+  for (std::size_t at = 0; at < count; at += block.size()) {
+    const std::size_t n = std::min(block.size(), count - at);
+    halves_from_floats(values + at, n, block.data());
+    std::byte* to = row.data + static_cast<std::ptrdiff_t>(at) * row.stride;
+    for (std::size_t i = 0; i < n; ++i, to += row.stride) store(to, block[i]);
+  }
 }
 
 /// Elements next to each other, where their type may be read and written.
@@ -146,8 +162,7 @@ void load_row(const NativeRow& row, std::size_t count, float* out) {
         return static_cast<float>(load<std::uint32_t>(p) / 4294967295.0);
       });
     case PixelType::half:
-      return each_load(row, count, out,
-                       [](const std::byte* p) { return static_cast<float>(load<Imath::half>(p)); });
+      return load_halves(row, count, out);
     case PixelType::float32:
       return each_load(row, count, out, [](const std::byte* p) { return load<float>(p); });
   }
@@ -169,7 +184,7 @@ void store_row(const float* values, std::size_t count, const NativeRow& row) {
     case PixelType::uint32:
       return each_store(values, count, row, quantise<std::uint32_t>);
     case PixelType::half:
-      return each_store(values, count, row, half_bits);
+      return store_halves(values, count, row);
     case PixelType::float32:
       return each_store(values, count, row, [](float v) { return v; });
   }

@@ -163,12 +163,4 @@ std::string spi3d_text(const Lut3DStep& lut) {
   return fmt::to_string(out);
 }
 
-std::string spi1d_text(const Lut1DStep& lut) {
-  Buffer out;
-  put(out, "Version 1\nFrom 0.0 1.0\nLength {}\nComponents 3\n{{\n", lut.length);
-  for (std::size_t i = 0; i < lut.values.size(); i += 3) put_triplet(out, &lut.values[i], lut.decimals);
-  put(out, "}}\n");
-  return fmt::to_string(out);
-}
-
 }  // namespace scotopic

@@ -25,9 +25,7 @@ const Lut3DStep& only_lut3d(const Chain& chain);
 /// .cube of Resolve and Adobe: LUT_3D_SIZE alone, red fastest, 0 to 1.
 std::string cube_text(const Chain& chain);
 
-/// Sony Pictures Imageworks' .spi3d and .spi1d (inputs 0 to 1), which OpenColorIO 1 reads too.
+/// Sony Pictures Imageworks' .spi3d (inputs 0 to 1), which OpenColorIO 1 reads too.
 std::string spi3d_text(const Lut3DStep& lut);
-/// The 1D kind.
-std::string spi1d_text(const Lut1DStep& lut);
 
 }  // namespace scotopic

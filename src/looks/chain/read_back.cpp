@@ -93,8 +93,6 @@ void require_read_back(const std::string& file, const std::string& path, const C
     fail(path, "colours come out otherwise");
 }
 
-void require_lut(const std::string& file, const std::string& path) { (void)read(file, path); }
-
 void require_config(const std::string& text, const std::string& path) {
   try {
     std::istringstream stream(text);

@@ -12,9 +12,6 @@ namespace scotopic {
 /// for bit.
 void require_read_back(const std::string& file, const std::string& path, const Chain& chain);
 
-/// Throws Error(output), about `path`, unless OpenColorIO reads a LUT of any values in `file`.
-void require_lut(const std::string& file, const std::string& path);
-
 /// Throws Error(output), about `path`, unless OpenColorIO reads the config and finds it valid.
 void require_config(const std::string& text, const std::string& path);
 

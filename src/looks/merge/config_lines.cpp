@@ -128,15 +128,18 @@ bool same_but_for_rounding(const std::string& a, const std::string& b) {
   std::size_t i = 0, j = 0;
   while (i < a.size() && j < b.size()) {
     if (a[i] == b[j]) {
-      ++i, ++j;
+      ++i;
+      ++j;
       continue;
     }
-    i = number_start(a, i), j = number_start(b, j);
+    i = number_start(a, i);
+    j = number_start(b, j);
     char *a_end = nullptr, *b_end = nullptr;
     const double x = std::strtod(a.c_str() + i, &a_end), y = std::strtod(b.c_str() + j, &b_end);
     if (a_end == a.c_str() + i || b_end == b.c_str() + j) return false;
     if (!(std::abs(x - y) <= 1e-12 * std::max(std::abs(x), std::abs(y)))) return false;
-    i = static_cast<std::size_t>(a_end - a.c_str()), j = static_cast<std::size_t>(b_end - b.c_str());
+    i = static_cast<std::size_t>(a_end - a.c_str());
+    j = static_cast<std::size_t>(b_end - b.c_str());
   }
   return i == a.size() && j == b.size();
 }

@@ -14,7 +14,8 @@ std::string line_diff(const std::string& before, const std::string& after) {
   std::size_t i = 0, j = 0;
   while (i < a.size() || j < b.size()) {
     if (i < a.size() && j < b.size() && a[i] == b[j]) {
-      ++i, ++j;
+      ++i;
+      ++j;
       continue;
     }
     // Up to where the old line goes on, all is new; a line that never comes again was changed or removed.

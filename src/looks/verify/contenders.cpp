@@ -7,58 +7,37 @@
 #include <cmath>
 
 #include "batch/batch.h"
+#include "batch/half_rows.h"
 #include "stages/reference.h"
-#include "io/pixels/pixel_type.h"
 #include "io/pixels/row_bands.h"
 
 namespace scotopic {
 namespace {
-
-/// A copy of the picture that each run spoils and the next restores.
-struct Workplace {
-  const TimedPicture& picture;
-  Colours work;
-
-  explicit Workplace(const TimedPicture& p) : picture(p), work(p.pixels) {}
-
-  void restore(std::size_t count) {
-    std::copy_n(picture.pixels.r.begin(), count, work.r.begin());
-    std::copy_n(picture.pixels.g.begin(), count, work.g.begin());
-    std::copy_n(picture.pixels.b.begin(), count, work.b.begin());
-  }
-  PixelRows row(std::size_t y) {
-    PixelRows rows;
-    rows.r = work.r.data() + y * picture.width;
-    rows.g = work.g.data() + y * picture.width;
-    rows.b = work.b.data() + y * picture.width;
-    rows.count = picture.width;
-    return rows;
-  }
-};
 
 using Place = std::shared_ptr<Workplace>;
 
 /// Slow ways see but a part of the picture.
 constexpr std::size_t slow_share = 16;
 
-TimedRun timed_rows(const Place& place, std::size_t rows, const RowOperator& apply) {
-  const std::size_t pixels = rows * place->picture.width;
-  return {[place, pixels] { place->restore(pixels); },
-          [place, rows, apply] {
-            for (std::size_t y = 0; y < rows; ++y) apply(place->row(y), nullptr);
-          },
-          pixels};
+std::size_t slow_rows(const Place& place) { return std::max<std::size_t>(1, place->rows() / slow_share); }
+
+TimedRun timed_rows(const Place& place, std::size_t rows, const RowOperator& apply, bool threaded = false) {
+  const std::size_t pixels = place->restore(rows);
+  const auto some = [place, apply](int first, int last) {
+    for (int y = first; y < last; ++y) apply(place->row(static_cast<std::size_t>(y)), nullptr);
+  };
+  const int count = static_cast<int>(rows);
+  return {[place, rows] { (void)place->restore(rows); },
+          [some, count, threaded] { threaded ? parallel_rows(count, 8, some) : some(0, count); }, pixels};
 }
 
-TimedRun threaded_rows(const Place& place, const RowOperator& apply) {
-  const std::size_t rows = place->picture.rows();
-  return {[place, rows] { place->restore(rows * place->picture.width); },
-          [place, rows, apply] {
-            parallel_rows(static_cast<int>(rows), 8, [&](int first, int last) {
-              for (int y = first; y < last; ++y) apply(place->row(static_cast<std::size_t>(y)), nullptr);
-            });
-          },
-          rows * place->picture.width};
+Contender contender(std::string group, std::string name, EvaluatorError error, TimedRun run) {
+  Contender out;
+  out.row.group = std::move(group);
+  out.row.name = std::move(name);
+  out.row.error = std::move(error);
+  out.run = std::move(run);
+  return out;
 }
 
 Contender scalar_contender(const AppearanceParameters& p, const Place& place, const Colours& colours) {
@@ -71,104 +50,106 @@ Contender scalar_contender(const AppearanceParameters& p, const Place& place, co
       rows.b[i] = static_cast<float>(out[2]);
     }
   };
-  Contender out;
-  out.row.group = "operator";
-  out.row.name = "double, scalar";
-  out.row.error = evaluator_error(p, apply, colours);
-  out.run = timed_rows(place, std::max<std::size_t>(1, place->picture.rows() / slow_share), apply);
-  return out;
-}
-
-Contender evaluator_contender(const AppearanceParameters& p, const EvaluatorKind& kind, const Place& place,
-                              const Colours& colours) {
-  const PreparedEvaluator prepared = prepare_evaluator(p, kind);
-  Contender out;
-  out.row.group = "operator";
-  out.row.name = kind.name;
-  out.row.error = evaluator_error(p, prepared.apply, colours);
-  out.row.seconds = prepared.seconds;
-  out.row.bytes = prepared.bytes;
-  const std::size_t rows = place->picture.rows();
-  out.run =
-      timed_rows(place, kind.edge > 0 ? std::max<std::size_t>(1, rows / slow_share) : rows, prepared.apply);
-  return out;
-}
-
-NativeRow half_row(std::vector<std::uint16_t>& values, std::size_t first = 0, std::size_t step = 1) {
-  return {reinterpret_cast<std::byte*>(values.data() + first), static_cast<std::ptrdiff_t>(2 * step),
-          PixelType::half};
+  return contender("operator", "double, scalar", evaluator_error(p, apply, colours),
+                   timed_rows(place, slow_rows(place), apply));
 }
 
 std::vector<std::uint16_t> halves(const std::vector<float>& values) {
   std::vector<std::uint16_t> out(values.size());
-  store_row(values.data(), values.size(), half_row(out));
+  halves_from_floats(values.data(), values.size(), out.data());
   return out;
 }
 
-std::vector<float> floats(std::vector<std::uint16_t>& values) {
+std::vector<float> floats(const std::vector<std::uint16_t>& values) {
   std::vector<float> out(values.size());
-  load_row(half_row(values), values.size(), out.data());
+  floats_from_halves(values.data(), values.size(), out.data());
   return out;
 }
 
-/// Planes of halves, and what they were.
-struct HalfPlanes {
-  std::array<std::vector<std::uint16_t>, 3> from, work;
-
-  explicit HalfPlanes(const Colours& c) : from{halves(c.r), halves(c.g), halves(c.b)}, work(from) {}
-  void restore() { work = from; }
+/// Colours as a file's pixels hold them, computed in place.
+class HalfPlanes {
+ public:
+  static constexpr const char* name = "float, half planes in and out";
+  explicit HalfPlanes(const Colours& c) : planes_{halves(c.r), halves(c.g), halves(c.b)} {}
+  Colours colours() const { return {floats(planes_[0]), floats(planes_[1]), floats(planes_[2])}; }
   void apply(const AppearanceBatch& batch) {
-    batch.apply(HalfRows{work[0].data(), work[1].data(), work[2].data(), work[0].size()});
+    batch.apply(HalfRows{planes_[0].data(), planes_[1].data(), planes_[2].data(), planes_[0].size()});
   }
-  static Colours colours(std::array<std::vector<std::uint16_t>, 3>& planes) {
-    return {floats(planes[0]), floats(planes[1]), floats(planes[2])};
-  }
+
+ private:
+  std::array<std::vector<std::uint16_t>, 3> planes_;
 };
 
-Contender half_contender(const AppearanceParameters& p, const TimedPicture& picture, const Colours& colours) {
-  const auto batch = std::make_shared<AppearanceBatch>(p);
-  HalfPlanes compared(colours);
-  compared.apply(*batch);
-  Contender out;
-  out.row.group = "files";
-  out.row.name = "float, half planes in and out";
-  out.row.error = evaluator_error(p, HalfPlanes::colours(compared.from), HalfPlanes::colours(compared.work));
-  const auto planes = std::make_shared<HalfPlanes>(picture.pixels);
-  out.run = {[planes] { planes->restore(); }, [planes, batch] { planes->apply(*batch); },
-             picture.pixels.size()};
-  return out;
-}
-
-Contender rgba_contender(const AppearanceParameters& p, const TimedPicture& picture, const Colours& colours) {
-  const auto batch = std::make_shared<AppearanceBatch>(p);
-  const auto interleaved = [](const Colours& c) {
-    std::vector<float> out(4 * c.size(), 1.0f);
-    for (std::size_t i = 0; i < c.size(); ++i)
-      out[4 * i] = c.r[i], out[4 * i + 1] = c.g[i], out[4 * i + 2] = c.b[i];
+class Rgba {
+ public:
+  static constexpr const char* name = "float, RGBA float";
+  explicit Rgba(const Colours& c) {
+    for (std::size_t i = 0; i < c.size(); ++i) pixels_.insert(pixels_.end(), {c.r[i], c.g[i], c.b[i], 1.0f});
+  }
+  Colours colours() const {
+    Colours out;
+    for (std::size_t i = 0; i < pixels_.size(); i += 4) {
+      out.r.push_back(pixels_[i]);
+      out.g.push_back(pixels_[i + 1]);
+      out.b.push_back(pixels_[i + 2]);
+    }
     return out;
-  };
-  std::vector<float> compared = interleaved(colours);
-  batch->apply_rgba(compared.data(), colours.size());
-  Colours got = colours;
-  for (std::size_t i = 0; i < got.size(); ++i)
-    got.r[i] = compared[4 * i], got.g[i] = compared[4 * i + 1], got.b[i] = compared[4 * i + 2];
-  const auto from = std::make_shared<std::vector<float>>(interleaved(picture.pixels));
-  const auto work = std::make_shared<std::vector<float>>(*from);
-  Contender out;
-  out.row.group = "files";
-  out.row.name = "float, RGBA float";
-  out.row.error = evaluator_error(p, colours, got);
-  out.run = {[from, work] { *work = *from; },
-             [work, batch] { batch->apply_rgba(work->data(), work->size() / 4); }, picture.pixels.size()};
-  return out;
+  }
+  void apply(const AppearanceBatch& batch) { batch.apply_rgba(pixels_.data(), pixels_.size() / 4); }
+
+ private:
+  std::vector<float> pixels_;
+};
+
+template <class Layout>
+Contender layout_contender(const AppearanceParameters& p, const TimedPicture& picture,
+                           const Colours& colours) {
+  const auto batch = std::make_shared<AppearanceBatch>(p);
+  Layout compared(colours);
+  const Colours in = compared.colours();
+  compared.apply(*batch);
+  const auto from = std::make_shared<const Layout>(picture.pixels);
+  const auto work = std::make_shared<Layout>(*from);
+  return contender(
+      "files", Layout::name, evaluator_error(p, in, compared.colours()),
+      {[from, work] { *work = *from; }, [work, batch] { work->apply(*batch); }, picture.pixels.size()});
 }
 
 }  // namespace
 
+std::size_t Workplace::restore(std::size_t rows) {
+  const std::size_t count = rows * picture_.width;
+  std::copy_n(picture_.pixels.r.begin(), count, work_.r.begin());
+  std::copy_n(picture_.pixels.g.begin(), count, work_.g.begin());
+  std::copy_n(picture_.pixels.b.begin(), count, work_.b.begin());
+  return count;
+}
+
+PixelRows Workplace::row(std::size_t y) {
+  const std::size_t at = y * picture_.width;
+  PixelRows rows;
+  rows.r = work_.r.data() + at;
+  rows.g = work_.g.data() + at;
+  rows.b = work_.b.data() + at;
+  rows.count = picture_.width;
+  return rows;
+}
+
+Contender evaluator_contender(const AppearanceParameters& p, const EvaluatorKind& kind, const Place& place,
+                              const Colours& colours) {
+  PreparedEvaluator prepared = prepare_evaluator(p, kind);
+  const std::size_t rows = kind.edge > 0 ? slow_rows(place) : place->rows();
+  Contender out = contender("operator", std::string(kind.name), evaluator_error(p, prepared.apply, colours),
+                            timed_rows(place, rows, prepared.apply));
+  out.row.seconds = prepared.seconds;
+  out.row.bytes = prepared.bytes;
+  out.apply = std::move(prepared.apply);
+  return out;
+}
+
 TimedPicture night_picture(std::size_t width, std::size_t height, const AppearanceParameters& p) {
   TimedPicture out;
   out.width = width;
-  for (auto* plane : {&out.pixels.r, &out.pixels.g, &out.pixels.b}) plane->reserve(width * height);
   const double ground = p.adaptation / p.white_luminance;
   const double lamp = 20 / p.white_luminance;  // cd/m2: photopic whatever La is
   for (std::size_t y = 0; y < height; ++y)
@@ -212,18 +193,9 @@ std::vector<Contender> operator_contenders(const AppearanceParameters& p, const 
     Contender c = evaluator_contender(p, evaluator_named(name), place, colours);
     c.row.group = fmt::format("operator, {} threads", threads);
     c.row.name = fmt::format("{}, {} threads", name, threads);
-    c.run = threaded_rows(place, prepare_evaluator(p, evaluator_named(name)).apply);
+    c.run = timed_rows(place, place->rows(), c.apply, true);
     out.push_back(std::move(c));
   }
-  out.push_back(rgba_contender(p, picture, colours));
-  out.push_back(half_contender(p, picture, colours));
-  return out;
-}
-
-std::vector<Contender> rod_contenders(const AppearanceParameters& p, const TimedPicture& picture,
-                                      const Colours& colours) {
-  const auto place = std::make_shared<Workplace>(picture);
-  std::vector<Contender> out;
   for (const RodEstimate rods : {RodEstimate::linear, RodEstimate::quadratic}) {
     AppearanceParameters q = p;
     q.rods = rods;
@@ -233,6 +205,8 @@ std::vector<Contender> rod_contenders(const AppearanceParameters& p, const Timed
     c.row.name = "float, " + c.row.group;
     out.push_back(std::move(c));
   }
+  out.push_back(layout_contender<Rgba>(p, picture, colours));
+  out.push_back(layout_contender<HalfPlanes>(p, picture, colours));
   return out;
 }
 

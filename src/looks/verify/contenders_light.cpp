@@ -131,15 +131,17 @@ struct AcuityPlace {
 
   AcuityPlace(const TimedPicture& picture, int most)
       : side(std::min({most, static_cast<int>(picture.width), static_cast<int>(picture.rows())})) {
-    const std::size_t n = static_cast<std::size_t>(side), x = (picture.width - n) / 2,
-                      y = (picture.rows() - n) / 2;
-    for (std::size_t row = 0; row < n; ++row)
-      for (std::size_t column = 0; column < n; ++column) {
-        const std::size_t i = (y + row) * picture.width + x + column;
-        in.r.push_back(picture.pixels.r[i]);
-        in.g.push_back(picture.pixels.g[i]);
-        in.b.push_back(picture.pixels.b[i]);
+    const auto n = static_cast<std::size_t>(side);
+    const std::size_t x = (picture.width - n) / 2, y = (picture.rows() - n) / 2;
+    const auto crop = [&](const std::vector<float>& from, std::vector<float>& to) {
+      for (std::size_t row = y; row < y + n; ++row) {
+        const auto first = from.begin() + static_cast<std::ptrdiff_t>(row * picture.width + x);
+        to.insert(to.end(), first, first + side);
       }
+    };
+    crop(picture.pixels.r, in.r);
+    crop(picture.pixels.g, in.g);
+    crop(picture.pixels.b, in.b);
     out = in;
   }
   void filter(const AcuityFilter& filter) {
@@ -148,22 +150,9 @@ struct AcuityPlace {
   }
 };
 
-EvaluatorError acuity_error(const AppearanceParameters& p, const Colours& expected, const Colours& got) {
-  std::vector<double> differences, relative;
-  for (std::size_t i = 0; i < got.size(); ++i) {
-    const Vec3<double> should = {expected.r[i], expected.g[i], expected.b[i]},
-                       is = {got.r[i], got.g[i], got.b[i]};
-    differences.push_back(exposed_difference(p.xyz_from_rgb * should, p.xyz_from_rgb * is));
-    double size = 0, error = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      size = std::max(size, std::abs(should[c]));
-      error = std::max(error, std::abs(is[c] - should[c]));
-    }
-    relative.push_back(size > 0 ? error / size : error);
-  }
-  EvaluatorError out;
-  out.difference = statistics_of(std::move(differences));
-  out.pixel = statistics_of(std::move(relative));
+std::vector<Vec3<double>> in_double(const Colours& c) {
+  std::vector<Vec3<double>> out;
+  for (std::size_t i = 0; i < c.size(); ++i) out.push_back({c.r[i], c.g[i], c.b[i]});
   return out;
 }
 
@@ -204,7 +193,7 @@ std::vector<Contender> acuity_contenders(const AppearanceParameters& p, const Ti
     Contender c;
     c.row.group = "acuity, sigma 8";
     c.row.name = step.name;
-    c.row.error = acuity_error(p, exact, place->out);
+    c.row.error = error_between(p.xyz_from_rgb, exact, in_double(exact), place->out);
     c.run = {nullptr, [place, filter] { place->filter(*filter); }, place->in.size()};
     out.push_back(std::move(c));
   }

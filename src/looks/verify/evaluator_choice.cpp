@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "looks/verify/timing.h"
+#include "looks/verify/contenders.h"
 
 namespace scotopic {
 namespace {
@@ -14,50 +14,13 @@ namespace {
 constexpr std::size_t colours_compared = 20000;
 constexpr int rounds = 5;
 
-struct Candidate {
-  const EvaluatorKind* kind;
-  PreparedEvaluator prepared;
-  double max_error;
-};
-
-class Contest {
- public:
-  explicit Contest(const AppearanceParameters& p)
-      : parameters_(p), colours_(stop_colours(colours_compared, p.xyz_from_rgb, p.xyz_from_rgb)) {}
-
-  void enter(std::string_view name) {
-    const EvaluatorKind& kind = evaluator_named(name);
-    PreparedEvaluator prepared = prepare_evaluator(parameters_, kind);
-    const double max_error = evaluator_error(parameters_, prepared.apply, colours_).difference.max;
-    candidates_.push_back({&kind, std::move(prepared), max_error});
-  }
-
-  std::vector<MeasuredEvaluator> measure() const {
-    Colours work = colours_;
-    PixelRows rows;
-    rows.r = work.r.data(), rows.g = work.g.data(), rows.b = work.b.data(), rows.count = work.size();
-    std::vector<TimedRun> runs;
-    for (const Candidate& c : candidates_)
-      runs.push_back({[&] {
-                        std::copy(colours_.r.begin(), colours_.r.end(), work.r.begin());
-                        std::copy(colours_.g.begin(), colours_.g.end(), work.g.begin());
-                        std::copy(colours_.b.begin(), colours_.b.end(), work.b.begin());
-                      },
-                      [&rows, &c] { c.prepared.apply(rows, nullptr); }, work.size()});
-    const std::vector<RunTime> times = time_interleaved(runs, rounds);
-    std::vector<MeasuredEvaluator> out;
-    for (std::size_t i = 0; i < candidates_.size(); ++i)
-      out.push_back({candidates_[i].kind->name, candidates_[i].max_error, times[i].median});
-    return out;
-  }
-
-  PreparedEvaluator take(std::size_t i) { return std::move(candidates_[i].prepared); }
-
- private:
-  const AppearanceParameters& parameters_;
-  Colours colours_;
-  std::vector<Candidate> candidates_;
-};
+std::vector<MeasuredEvaluator> measure(const std::vector<Contender>& contenders, std::size_t pixels) {
+  std::vector<MeasuredEvaluator> out;
+  for (const EvaluatorRow& row : time_contenders(contenders, pixels, rounds, nullptr))
+    if (row.error)
+      out.push_back({evaluator_named(row.name).name, row.error->difference.max, row.time.median});
+  return out;
+}
 
 bool meets(const MeasuredEvaluator& kind, const EvaluatorDemand& demand) {
   return (!demand.max_error || kind.max_error <= *demand.max_error) &&
@@ -107,21 +70,26 @@ std::optional<std::size_t> pick_evaluator(std::span<const MeasuredEvaluator> mea
   return best;
 }
 
-EvaluatorChoice choose_evaluator(const AppearanceParameters& parameters, const EvaluatorDemand& demand,
-                                 bool luts) {
-  Contest contest(parameters);
-  contest.enter("float");
-  contest.enter("double");
+EvaluatorChoice choose_evaluator(const AppearanceParameters& p, const EvaluatorDemand& demand, bool luts) {
+  const TimedPicture picture{stop_colours(colours_compared, p.xyz_from_rgb, p.xyz_from_rgb),
+                             colours_compared};
+  const auto place = std::make_shared<Workplace>(picture);
+  std::vector<Contender> entered;
+  const auto enter = [&](const char* name) {
+    entered.push_back(evaluator_contender(p, evaluator_named(name), place, picture.pixels));
+  };
+  enter("float");
+  enter("double");
   EvaluatorChoice out;
-  out.measured = contest.measure();
+  out.measured = measure(entered, picture.pixels.size());
   for (const char* name : {"lut17", "lut33", "lut65", "lut129"}) {
     if (!luts) break;
-    contest.enter(name);
-    out.measured = contest.measure();
+    enter(name);
+    out.measured = measure(entered, picture.pixels.size());
     if (out.measured.back().nanoseconds > out.measured.front().nanoseconds) break;
   }
   out.picked = pick_evaluator(out.measured, demand);
-  if (out.picked) out.kind = contest.take(*out.picked);
+  if (out.picked) out.apply = entered[*out.picked].apply;
   return out;
 }
 
@@ -150,7 +118,7 @@ std::shared_ptr<const Evaluator> ChosenEvaluators::make(const AppearanceParamete
   kind_ = &evaluator_named(chosen.measured[*chosen.picked].name);
   notes.note(fmt::format("computed in {}, for {} (measured: {})", kind_->name, demand_text(demand_),
                          measured_text(chosen.measured)));
-  const std::shared_ptr<Evaluator> out = evaluator_of(*kind_, parameters, std::move(chosen.kind.apply));
+  const std::shared_ptr<Evaluator> out = evaluator_of(*kind_, parameters, std::move(chosen.apply));
   out->measured = std::move(chosen.measured);
   return out;
 }

@@ -32,7 +32,7 @@ std::optional<std::size_t> pick_evaluator(std::span<const MeasuredEvaluator> mea
 struct EvaluatorChoice {
   std::vector<MeasuredEvaluator> measured;
   std::optional<std::size_t> picked;
-  PreparedEvaluator kind;  ///< of the one picked
+  RowOperator apply;  ///< of the one picked
 };
 
 /// Measures ways here and now, over colours of all brightness of the working gamut, and picks. LUTs, from the

@@ -30,6 +30,7 @@ void mark_dominated(std::vector<EvaluatorRow>& rows);
 struct Contender {
   EvaluatorRow row;
   TimedRun run;
+  RowOperator apply;  ///< where it computes rows of colours
 };
 
 /// Times all in turn, beside a memcpy of `pixels` RGBA float pixels, which is the first row of the result.

@@ -134,13 +134,12 @@ ErrorStatistics statistics_of(std::vector<double> values) {
   return {sum / static_cast<double>(values.size()), *p99, *std::max_element(p99, values.end())};
 }
 
-EvaluatorError evaluator_error(const AppearanceParameters& parameters, const Colours& in,
-                               const Colours& got) {
-  const AppearanceReference reference(parameters);
+EvaluatorError error_between(const Matrix3<double>& xyz_from_rgb, const Colours& in,
+                             const std::vector<Vec3<double>>& expected, const Colours& got) {
   std::vector<double> differences, pixels, components;
   EvaluatorError out;
   for (std::size_t i = 0; i < in.size(); ++i) {
-    const Vec3<double> from = pixel(in, i), is = pixel(got, i), should = reference({from});
+    const Vec3<double> from = pixel(in, i), is = pixel(got, i), should = expected[i];
     double absolute = 0, ulps = 0;
     for (std::size_t c = 0; c < 3; ++c) {
       absolute = std::max(absolute, std::abs(is[c] - should[c]));
@@ -148,7 +147,7 @@ EvaluatorError evaluator_error(const AppearanceParameters& parameters, const Col
     }
     const double size = std::max(largest(from), largest(should));
     const double relative = size > 0 ? absolute / size : absolute;
-    differences.push_back(exposed_difference(parameters.xyz_from_rgb * should, parameters.xyz_from_rgb * is));
+    differences.push_back(exposed_difference(xyz_from_rgb * should, xyz_from_rgb * is));
     pixels.push_back(relative);
     components.push_back(ulps);
     if (out.worst.size() < worst_kept || relative > out.worst.back().error)
@@ -160,12 +159,18 @@ EvaluatorError evaluator_error(const AppearanceParameters& parameters, const Col
   return out;
 }
 
+EvaluatorError evaluator_error(const AppearanceParameters& parameters, const Colours& in,
+                               const Colours& got) {
+  const AppearanceReference reference(parameters);
+  std::vector<Vec3<double>> expected;
+  for (std::size_t i = 0; i < in.size(); ++i) expected.push_back(reference({pixel(in, i)}));
+  return error_between(parameters.xyz_from_rgb, in, expected, got);
+}
+
 EvaluatorError evaluator_error(const AppearanceParameters& parameters, const RowOperator& kind,
                                const Colours& in) {
   Colours got = in;
-  PixelRows rows;
-  rows.r = got.r.data(), rows.g = got.g.data(), rows.b = got.b.data(), rows.count = got.size();
-  kind(rows, nullptr);
+  kind(rows_of(got), nullptr);
   return evaluator_error(parameters, in, got);
 }
 

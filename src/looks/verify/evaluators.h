@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,7 +40,7 @@ PreparedEvaluator prepare_evaluator(const AppearanceParameters& parameters, cons
 struct ErrorStatistics {
   double mean = 0, p99 = 0, max = 0;
 };
-/// Mean, 99th percentile and greatest; zeros for none.
+/// Zeros for no values.
 ErrorStatistics statistics_of(std::vector<double> values);
 
 /// A pixel that came out far off.
@@ -59,7 +58,9 @@ struct EvaluatorError {
   std::vector<WorstPixel> worst;  ///< by `pixel`, a few, the worst first
 };
 
-/// Error of planar results `got` for colours `in`.
+/// Error of planar results `got` for colours `in`: against those `expected`, or the reference's.
+EvaluatorError error_between(const Matrix3<double>& xyz_from_rgb, const Colours& in,
+                             const std::vector<Vec3<double>>& expected, const Colours& got);
 EvaluatorError evaluator_error(const AppearanceParameters& parameters, const Colours& in, const Colours& got);
 
 /// The same of a way on these colours.

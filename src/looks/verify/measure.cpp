@@ -109,21 +109,24 @@ BakeError Comparison::result() const {
   return error;
 }
 
-Colours exact(const AppearanceParameters& parameters, Colours colours) {
+PixelRows rows_of(Colours& colours) {
   PixelRows rows;
-  rows.r = colours.r.data(), rows.g = colours.g.data(), rows.b = colours.b.data(),
+  rows.r = colours.r.data();
+  rows.g = colours.g.data();
+  rows.b = colours.b.data();
   rows.count = colours.size();
-  AppearanceBatch(parameters, Precision::dual).apply(rows);
+  return rows;
+}
+
+Colours exact(const AppearanceParameters& parameters, Colours colours) {
+  AppearanceBatch(parameters, Precision::dual).apply(rows_of(colours));
   return colours;
 }
 
 Colours exact_night(const AppearanceParameters& parameters, const NightDisplayParameters& display,
                     Colours colours) {
   colours = exact(parameters, std::move(colours));
-  PixelRows rows;
-  rows.r = colours.r.data(), rows.g = colours.g.data(), rows.b = colours.b.data(),
-  rows.count = colours.size();
-  DisplayBatch(of_scene(parameters, display), Precision::dual).apply(rows);
+  DisplayBatch(of_scene(parameters, display), Precision::dual).apply(rows_of(colours));
   return colours;
 }
 

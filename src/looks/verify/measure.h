@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "batch/batch.h"
 #include "stages/display/night_display.h"
 #include "stages/shared/parameters.h"
 
@@ -19,6 +20,9 @@ struct Colours {
   /// Number of colours.
   std::size_t size() const { return r.size(); }
 };
+
+/// All of them as rows that an operator computes in place.
+PixelRows rows_of(Colours& colours);
 
 /// Stops of white that colours lie between, and where the sequence of their mixtures begins (0 to 1).
 struct StopRange {

@@ -57,7 +57,10 @@ void NonFiniteTally::add(const std::vector<std::size_t>& pixels, int x, int y) {
   const NonFinitePixels here = {pixels.size(), x + static_cast<int>(pixels.front()), y};
   const std::lock_guard guard(lock_);
   const bool first = found_.count == 0 || std::tie(here.y, here.x) < std::tie(found_.y, found_.x);
-  if (first) found_.x = here.x, found_.y = here.y;
+  if (first) {
+    found_.x = here.x;
+    found_.y = here.y;
+  }
   found_.count += here.count;
 }
 

@@ -48,7 +48,7 @@ TEST(EvaluatorChoice, what_is_picked_holds_its_bound_and_works) {
   float r = 0.1f, g = 0.2f, b = 0.05f;
   PixelRows rows;
   rows.r = &r, rows.g = &g, rows.b = &b, rows.count = 1;
-  choice.kind.apply(rows, nullptr);
+  choice.apply(rows, nullptr);
   EXPECT_NE(r, 0.1f);
 }
 
