@@ -49,7 +49,7 @@ def memory(size):
 
 def way_row(way):
     error = way.get("error")
-    row = [way["way"], digits(way["nanosecondsPerPixel"], 3), digits(way["memcpyRatio"], 3)]
+    row = [way["evaluator"], digits(way["nanosecondsPerPixel"], 3), digits(way["memcpyRatio"], 3)]
     if error:
         row += [digits(error["deltaE00"][k]) for k in ("mean", "p99", "max")] + [digits(error["relativePixel"]["max"])]
     else:
@@ -59,8 +59,8 @@ def way_row(way):
 
 
 def group_table(times, wanted):
-    head = ["way", "ns/pixel", "× memcpy", "ΔE00 mean", "99 %", "max", "of the pixel, max", "tables", "to bake", ""]
-    return table(head, [way_row(w) for w in times["ways"] if wanted(w["group"])])
+    head = ["evaluator", "ns/pixel", "× memcpy", "ΔE00 mean", "99 %", "max", "of the pixel, max", "tables", "to bake", ""]
+    return table(head, [way_row(w) for w in times["evaluators"] if wanted(w["group"])])
 
 
 def target_table(times):
@@ -98,8 +98,8 @@ def wrapped(part):
 
 
 def ratios(times, bench):
-    ns = {(w["group"], w["way"]): w["nanosecondsPerPixel"] for w in times["ways"]}
-    error = {(w["group"], w["way"]): w["error"]["deltaE00"]["max"] for w in times["ways"] if "error" in w}
+    ns = {(w["group"], w["evaluator"]): w["nanosecondsPerPixel"] for w in times["evaluators"]}
+    error = {(w["group"], w["evaluator"]): w["error"]["deltaE00"]["max"] for w in times["evaluators"] if "error" in w}
     best = bench[0]["target"]
     cell = {t["what"]: t["ns"] for t in bench if t["target"] == best}
     op = "operator"
@@ -180,7 +180,7 @@ def section(times, bench, instructions, others):
 
 
 def summary(times):
-    ways = {w["way"]: w for w in times["ways"] if w["group"] == "operator"}
+    ways = {w["evaluator"]: w for w in times["evaluators"] if w["group"] == "operator"}
     rows = []
     for name in ("double", "float", "lut65", "lut33", "lut17"):
         w = ways[name]
@@ -219,10 +219,10 @@ def read(folder):
 
 def draw(times, folder):
     """docs/images/accuracy.svg from the columns of `time --csv` that the plot reads."""
-    rows = [["group", "way", "ns_per_pixel", *[""] * 6, "de00_max", *[""] * 8, "dominated"]]
-    for w in (w for w in times["ways"] if w["group"] == "operator"):
+    rows = [["group", "evaluator", "ns_per_pixel", *[""] * 6, "de00_max", *[""] * 8, "dominated"]]
+    for w in (w for w in times["evaluators"] if w["group"] == "operator"):
         error = w["error"]["deltaE00"]["max"] if "error" in w else ""
-        rows.append([w["group"], w["way"], w["nanosecondsPerPixel"], *[""] * 6, error, *[""] * 8, int(w["dominated"])])
+        rows.append([w["group"], w["evaluator"], w["nanosecondsPerPixel"], *[""] * 6, error, *[""] * 8, int(w["dominated"])])
     with open(folder / "time.csv", "w", newline="") as file:
         csv.writer(file).writerows(rows)
     run("gnuplot", "-c", ROOT / "scripts/plot/accuracy.gnuplot", folder / "time.csv", ROOT / "docs/images/accuracy.svg",

@@ -20,7 +20,7 @@ struct CommonOptions {
   bool quiet = false;
   bool json = false;
   int threads = 0;
-  /// Options on the command line that change what is written, each as "name=value"; see recipe.h.
+  /// Options on the command line that change what is written, each as "name=value"; see provenance.h.
   std::vector<std::string> typed;
 };
 

@@ -71,6 +71,16 @@ TEST(House, no_folder_of_src_has_more_than_15_files) {
   for (const auto& [folder, files] : count) EXPECT_LE(files, 15) << folder;
 }
 
+TEST(House, lines_of_src_have_110_columns_at_most) {
+  for_each_source(source, [](const fs::path& file) {
+    std::ifstream text(file);
+    for (std::string line; std::getline(text, line);) {
+      const auto columns = std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xc0) != 0x80; });
+      EXPECT_LE(columns, 110) << file << ": " << line;
+    }
+  });
+}
+
 TEST(House, the_core_knows_neither_files_nor_ocio) {
   const std::set<std::string> core(rooms.begin(), rooms.begin() + floor_of("base"));
   for_each_source(source, [&](const fs::path& file) {

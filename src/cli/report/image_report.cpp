@@ -9,7 +9,7 @@ nlohmann::ordered_json measured_json(const std::vector<EvaluatorMeasure>& measur
   nlohmann::ordered_json out;
   for (const EvaluatorMeasure& one : measured)
     out.push_back(
-        {{"way", one.name}, {"maxDeltaE00", one.max_error}, {"nanosecondsPerPixel", one.nanoseconds}});
+        {{"evaluator", one.name}, {"maxDeltaE00", one.max_error}, {"nanosecondsPerPixel", one.nanoseconds}});
   return out;
 }
 
@@ -32,7 +32,7 @@ nlohmann::ordered_json image_json(const ImageReport& r) {
   if (r.scene.adapting) out["state"] = adapting_json(r.scene.adapting->state, r.scene.adapting->thresholds);
   out["nonFinite"] = r.non_finite.count;
   out["clipped"] = r.clipped;
-  if (!r.evaluator->measured.empty()) out["ways"] = measured_json(r.evaluator->measured);
+  if (!r.evaluator->measured.empty()) out["evaluators"] = measured_json(r.evaluator->measured);
   if (r.tone)
     out["display"] = {{"low", r.tone->low},
                       {"high", r.tone->high},

@@ -41,6 +41,10 @@ std::string time_text(const std::vector<EvaluatorRow>& rows, const TimeCondition
       "{}; OpenColorIO {}; load {:.2f}\n{}, {} pixels, median of {} rounds\n"
       "errors over {}, against double, which is within {:g} of exact arithmetic\n\n",
       c.machine, c.ocio, c.load, c.picture, c.pixels, c.rounds, c.colours, reference_error);
+  if (c.outside_ap1 > 0)
+    out.insert(out.size() - 1, fmt::format("{} of them lie outside AP1: a LUT clamps them to its border, "
+                                           "and is as far off there as that changes them\n",
+                                           c.outside_ap1));
   out += fmt::format("{:<32}{:>10}{:>8}{:>8}{:>10}{:>10}{:>10}{:>10}{:>9}{:>9}\n", "", "ns/pixel", "spread",
                      "memcpy", "dE00 mean", "99 %", "max", "pixel", "tables", "bake s");
   std::string group;
@@ -56,7 +60,8 @@ std::string time_text(const std::vector<EvaluatorRow>& rows, const TimeCondition
 
 std::string time_csv(const std::vector<EvaluatorRow>& rows) {
   std::string out =
-      "group,way,ns_per_pixel,ns_least,ns_quartile_low,ns_quartile_high,memcpy_ratio,de00_mean,de00_p99,de00_"
+      "group,evaluator,ns_per_pixel,ns_least,ns_quartile_low,ns_quartile_high,memcpy_ratio,de00_mean,de00_"
+      "p99,de00_"
       "max,"
       "pixel_mean,pixel_p99,pixel_max,ulps_mean,ulps_p99,ulps_max,bytes,bake_seconds,dominated\n";
   for (const EvaluatorRow& row : rows) {
@@ -81,19 +86,20 @@ nlohmann::ordered_json time_json(const std::vector<EvaluatorRow>& rows, const Ti
   out["pixels"] = c.pixels;
   out["rounds"] = c.rounds;
   out["errorsOver"] = c.colours;
+  out["outsideAp1"] = c.outside_ap1;
   out["referenceError"] = reference_error;
   for (const EvaluatorRow& row : rows) {
-    nlohmann::ordered_json way = {{"group", row.group},
-                                  {"way", row.name},
-                                  {"nanosecondsPerPixel", row.time.median},
-                                  {"quartiles", {row.time.quartile_low, row.time.quartile_high}},
-                                  {"least", row.time.least},
-                                  {"memcpyRatio", row.memcpy_ratio},
-                                  {"bytes", row.bytes},
-                                  {"bakeSeconds", row.seconds},
-                                  {"dominated", row.dominated}};
-    if (row.error) way["error"] = json_of(*row.error);
-    out["ways"].push_back(std::move(way));
+    nlohmann::ordered_json evaluator = {{"group", row.group},
+                                        {"evaluator", row.name},
+                                        {"nanosecondsPerPixel", row.time.median},
+                                        {"quartiles", {row.time.quartile_low, row.time.quartile_high}},
+                                        {"least", row.time.least},
+                                        {"memcpyRatio", row.memcpy_ratio},
+                                        {"bytes", row.bytes},
+                                        {"bakeSeconds", row.seconds},
+                                        {"dominated", row.dominated}};
+    if (row.error) evaluator["error"] = json_of(*row.error);
+    out["evaluators"].push_back(std::move(evaluator));
   }
   return out;
 }

@@ -1,4 +1,4 @@
-// How the operator is computed: by name, or the cheapest way that is accurate enough.
+// How the operator is computed: by name, or the cheapest evaluator that is accurate enough.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -18,7 +18,7 @@
 namespace scotopic {
 namespace {
 
-// Of verbs that write images. What they stand for otherwise is in the recipe another way, or changes no
+// Of verbs that write images. What they stand for otherwise is in the hash in other words, or changes no
 // pixel.
 constexpr std::array<std::string_view, 17> without_effect = {"help",
                                                              "verbose",

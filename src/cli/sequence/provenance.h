@@ -19,7 +19,7 @@ std::vector<std::string> typed_options(const CLI::App& verb);
 /// OpenColorIO's hash of a config, of the environment it looks at, and of its LUTs (these by inode and time).
 std::string colour_identity(const ColourConfig& config);
 
-/// What the recipes of all images of one command have in common: version, verb, options (one that names a
+/// What the provenance of all images of one command have in common: version, verb, options (one that names a
 /// file with the file's contents), and the job's own settings.
 std::string common_provenance(const std::string& verb, const FrameJob& job,
                               const std::vector<std::string>& typed);
@@ -28,8 +28,8 @@ std::string common_provenance(const std::string& verb, const FrameJob& job,
 /// config may go by them). Error(input) for an input that is missing.
 std::string provenance_of(const std::string& common, const FramePaths& paths);
 
-/// Whether the file is there, has this recipe, and is whole: its header, and the last rows of its pictures
-/// are read.
+/// Whether the file is there, has this provenance, and is whole: its header, and the last rows of its
+/// pictures are read.
 bool holds_provenance(const std::string& file, const std::string& provenance, const Limits& limits);
 
 /// Files that an input stands for: itself, or those of a pattern of wavelengths. Error(input) for one that is

@@ -16,7 +16,7 @@ namespace {
 
 using Place = std::shared_ptr<Workplace>;
 
-/// Slow ways see but a part of the picture.
+/// Slow evaluators see but a part of the picture.
 constexpr std::size_t slow_share = 16;
 
 std::size_t slow_rows(const Place& place) { return std::max<std::size_t>(1, place->rows() / slow_share); }

@@ -8,7 +8,7 @@
 
 namespace scotopic {
 
-/// The picture that ways are timed on: planar linear RGB, row after row.
+/// The image that evaluators are timed on: planar linear RGB, row after row.
 struct TimedPicture {
   Colours pixels;
   std::size_t width = 0;
@@ -37,7 +37,8 @@ class Workplace {
   Colours work_;
 };
 
-/// A way with its error over `colours`, to be timed on all rows, or on a sixteenth of them where it is a LUT.
+/// An evaluator with its error over `colours`, to be timed on all rows, or on a sixteenth of them where it is
+/// a LUT.
 Contender evaluator_contender(const AppearanceParameters& parameters, const EvaluatorKind& kind,
                               const std::shared_ptr<Workplace>& place, const Colours& colours);
 

@@ -48,7 +48,7 @@ auto of_scene(const AppearanceParameters& p) {
                          p.strength.luminance, p.strength.chroma);
 }
 
-/// The evaluator of a way; a LUT's is prepared already.
+/// A LUT is prepared already.
 std::shared_ptr<Evaluator> evaluator_of(const EvaluatorKind& kind, const AppearanceParameters& parameters,
                                         RowOperator lut) {
   const std::string name(kind.name);

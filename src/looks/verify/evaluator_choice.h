@@ -1,4 +1,4 @@
-// Which way to compute: the cheapest that is accurate enough, or the most accurate that is cheap enough.
+// Which evaluator to take: the cheapest that is accurate enough, or the most accurate that is cheap enough.
 #pragma once
 
 #include <memory>
@@ -20,10 +20,10 @@ struct EvaluatorDemand {
   std::optional<double> budget;     ///< nanoseconds per pixel on one thread
 };
 
-/// A way, its worst error (CIEDE2000) and its cost per pixel.
+/// An evaluator, its worst error (CIEDE2000) and its cost per pixel.
 using MeasuredEvaluator = EvaluatorMeasure;
 
-/// The place of the way to take: among those that meet the demand the cheapest, or, where there is only a
+/// The place of the one to take: among those that meet the demand the cheapest, or, where there is only a
 /// budget, the most accurate. nullopt: none does.
 std::optional<std::size_t> pick_evaluator(std::span<const MeasuredEvaluator> measured,
                                           const EvaluatorDemand& demand);
@@ -35,9 +35,9 @@ struct EvaluatorChoice {
   RowOperator apply;  ///< of the one picked
 };
 
-/// Measures ways here and now, over colours of all brightness of the working gamut, and picks. LUTs, from the
-/// smallest, are looked at only while they are cheaper than computing in float, which is closer than any LUT.
-/// `luts`: whether LUTs will do at all.
+/// Measures evaluators here and now, over colours of all brightness of the working gamut, and picks. LUTs,
+/// from the smallest, are looked at only while they are cheaper than computing in float, which is closer than
+/// any LUT. `luts`: whether LUTs will do at all.
 EvaluatorChoice choose_evaluator(const AppearanceParameters& parameters, const EvaluatorDemand& demand,
                                  bool luts);
 
@@ -48,11 +48,11 @@ class ChosenEvaluators : public EvaluatorSource {
  public:
   /// What is named.
   explicit ChosenEvaluators(const EvaluatorKind& named) : kind_(&named) {}
-  /// What is picked, for the first scene, by pick_way().
+  /// What is picked, for the first scene, by pick_evaluator().
   explicit ChosenEvaluators(const EvaluatorDemand& demand) : demand_(demand) {}
 
   /// Says what was picked. Error(usage) for a LUT where rows have signals of `receptors`; Error(limit) if no
-  /// way meets the demand.
+  /// evaluator meets the demand.
   std::shared_ptr<const Evaluator> evaluator(const AppearanceParameters& parameters, bool receptors,
                                              const Notes& notes) override;
 

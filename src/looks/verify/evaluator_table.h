@@ -1,4 +1,4 @@
-// What each way costs and how far off it is: the rows of the table, and which of them nobody needs.
+// What each evaluator costs and how far off it is: the rows of the table, and which of them nobody needs.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace scotopic {
 
-/// Ways of one group do the same thing, and can be compared.
+/// Evaluators of one group do the same thing, and can be compared.
 struct EvaluatorRow {
   std::string group;
   std::string name;

@@ -1,4 +1,5 @@
-// Ways to compute the same operator, from double to a small LUT: what each is, and how far from exact it is.
+// Evaluators: ways to compute the same operator, from double to a small LUT: what each is, and how far from
+// exact it is.
 #pragma once
 
 #include <array>
@@ -13,7 +14,7 @@
 
 namespace scotopic {
 
-/// One way.
+/// One of them.
 struct EvaluatorKind {
   std::string_view name;  ///< as --precision says it
   std::size_t edge;       ///< of the LUT, which OpenColorIO applies; 0: the operator itself
@@ -22,18 +23,18 @@ struct EvaluatorKind {
 inline constexpr std::array<EvaluatorKind, 6> evaluator_kinds = {
     {{"double", 0}, {"float", 0}, {"lut129", 129}, {"lut65", 65}, {"lut33", 33}, {"lut17", 17}}};
 
-/// The way of that name; throws Error(ExitCode::internal) if `ways` has none.
+/// The one of that name; throws Error(ExitCode::internal) if there is none.
 const EvaluatorKind& evaluator_named(std::string_view name);
 
-/// A way with everything worked out that does not depend on the pixel.
+/// An evaluator with everything worked out that does not depend on the pixel.
 struct PreparedEvaluator {
   RowOperator apply;      ///< any number of threads at once
   double seconds = 0;     ///< that preparing took: baking, for a LUT
   std::size_t bytes = 0;  ///< of the LUT
 };
 
-/// All ways leave alone what the operator leaves alone, bit for bit: pixels that are not finite and photopic
-/// ones. A LUT takes RGB only: signals of receptors, where rows have them, are not looked at.
+/// All evaluators leave alone what the operator leaves alone, bit for bit: pixels that are not finite and
+/// photopic ones. A LUT takes RGB only: signals of receptors, where rows have them, are not looked at.
 PreparedEvaluator prepare_evaluator(const AppearanceParameters& parameters, const EvaluatorKind& kind);
 
 /// A quantity's statistics over pixels.
@@ -49,7 +50,7 @@ struct WorstPixel {
   double error = 0;
 };
 
-/// How far a way is from the reference, in double, over some colours; results are float.
+/// How far an evaluator is from the reference, in double, over some colours; results are float.
 struct EvaluatorError {
   ErrorStatistics difference;  ///< CIEDE2000 exposed to Y = .184 (appearance/colour_difference.h)
   ErrorStatistics pixel;       ///< greatest error of a component over the pixel's largest, in or out
@@ -63,7 +64,7 @@ EvaluatorError error_between(const Matrix3<double>& xyz_from_rgb, const Colours&
                              const std::vector<Vec3<double>>& expected, const Colours& got);
 EvaluatorError evaluator_error(const AppearanceParameters& parameters, const Colours& in, const Colours& got);
 
-/// The same of a way on these colours.
+/// The same of an evaluator on these colours.
 EvaluatorError evaluator_error(const AppearanceParameters& parameters, const RowOperator& kind,
                                const Colours& in);
 

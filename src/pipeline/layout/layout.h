@@ -1,4 +1,5 @@
-// What a file will become: which of its pictures are light, in whose colours, and how the output is laid out.
+// What a file will become: which of its subimages are light, in whose colours, and how the output is laid
+// out.
 //
 // Files of receptor signals: channels L, M, S, R (or a layer of them, "lmsr.L" ...), in luminance units: D65
 // of 1 cd/m2 has L + M = 1 and R = .4986. The float attribute "scotopic:lmsrUnit" says how many cd/m2 a value
@@ -43,7 +44,7 @@ struct ImageRequest {
   double exposure = 0;            ///< EV, applied to the result
 };
 
-/// A picture of the source that holds light, and the space its values are in.
+/// A subimage of the source that holds light, and the space its values are in.
 struct LightSubimage {
   std::size_t index = 0;
   ColourChannels channels;
@@ -70,7 +71,7 @@ struct ImageLayout {
   bool wraps = false;                ///< a panorama: its last column lies beside its first
   std::vector<std::string> notes;
 
-  /// The light of that picture of the source; nullptr: it holds none.
+  /// The light of that subimage of the source; nullptr: it holds none.
   const LightSubimage* light_of(std::size_t source_index) const;
 };
 
@@ -81,7 +82,7 @@ ImageLayout plan_layout(const PixelSource& source, const std::string& output, co
 /// Where the light is, for who writes nothing: in all parts of an OpenEXR file, in the first page of others.
 ImageLayout read_layout(const PixelSource& source, const ColourConfig& config, const ImageRequest& request);
 
-/// Marks the layout's colour pictures with what was applied.
+/// Marks the layout's colour subimages with what was applied.
 void set_stamps(ImageLayout& layout, const std::vector<Attribute>& stamps);
 
 }  // namespace scotopic

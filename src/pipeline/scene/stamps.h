@@ -9,7 +9,7 @@
 namespace scotopic {
 
 /// The attribute that carries an output's provenance: a digest of what it was made from.
-inline constexpr const char* provenance_attribute = "scotopic:recipe";
+inline constexpr const char* provenance_attribute = "scotopic:provenance";
 
 /// Of the pixel stages and the scene.
 std::vector<Attribute> parameter_stamps(const AppearanceParameters& scene, const OperatorChoice& choice,

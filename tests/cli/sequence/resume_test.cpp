@@ -101,7 +101,7 @@ TEST_F(Resume, files_that_options_name_count_by_what_they_hold) {
   EXPECT_EQ(again(lamp), all("written"));
 }
 
-TEST_F(Resume, pictures_of_other_formats_carry_the_recipe_too) {
+TEST_F(Resume, pictures_of_other_formats_carry_the_provenance_too) {
   write_frames(2);
   for (const char* format : {"png", "tif"}) {
     const std::vector<std::string> command = {"apply",

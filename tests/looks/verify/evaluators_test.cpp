@@ -25,12 +25,6 @@ AppearanceParameters at(double adaptation) {
 
 Colours colours(std::size_t count) { return stop_colours(count, test::rec709, test::rec709); }
 
-PixelRows rows_of(Colours& c) {
-  PixelRows out;
-  out.r = c.r.data(), out.g = c.g.data(), out.b = c.b.data(), out.count = c.size();
-  return out;
-}
-
 TEST(Evaluators, each_is_as_exact_as_it_says) {
   struct Row {
     const char* kind;

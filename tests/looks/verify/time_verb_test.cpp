@@ -1,10 +1,13 @@
 // `scotopic time` and the demands of `scotopic apply`, from the command line.
 #include <gtest/gtest.h>
+#include <fmt/format.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -28,22 +31,22 @@ Outcome run(const std::string& arguments) {
   return {WEXITSTATUS(pclose(pipe)), out};
 }
 
-TEST(TimeVerb, every_way_has_its_row_with_time_and_error) {
+TEST(TimeVerb, every_evaluator_has_its_row_with_time_and_error) {
   const Outcome outcome = run("time --pixels 65536 --rounds 1 --json");
   ASSERT_EQ(outcome.code, 0);
   const auto result = nlohmann::json::parse(outcome.out);
   std::set<std::string> names;
-  for (const auto& kind : result["ways"]) {
-    names.insert(kind["way"]);
-    EXPECT_GT(kind["nanosecondsPerPixel"], 0) << kind["way"];
-    if (kind["way"] != "memcpy") {
-      EXPECT_TRUE(kind["error"]["deltaE00"].contains("p99")) << kind["way"];
+  for (const auto& kind : result["evaluators"]) {
+    names.insert(kind["evaluator"]);
+    EXPECT_GT(kind["nanosecondsPerPixel"], 0) << kind["evaluator"];
+    if (kind["evaluator"] != "memcpy") {
+      EXPECT_TRUE(kind["error"]["deltaE00"].contains("p99")) << kind["evaluator"];
     }
-    if (kind["way"] == "float" && kind["group"] == "operator") {
+    if (kind["evaluator"] == "float" && kind["group"] == "operator") {
       EXPECT_LE(kind["error"]["relativePixel"]["max"], 5e-7);
       EXPECT_FALSE(kind["error"]["worst"].empty());
     }
-    if (kind["way"] == "lut65") {
+    if (kind["evaluator"] == "lut65") {
       EXPECT_GT(kind["bytes"], 3 * 65 * 65 * 65 * 4);
       EXPECT_GT(kind["bakeSeconds"], 0);
     }
@@ -53,6 +56,23 @@ TEST(TimeVerb, every_way_has_its_row_with_time_and_error) {
                            "cells, fine", "cells, draft"})
     EXPECT_TRUE(names.contains(name)) << name;
   EXPECT_GE(result["pixels"], 65536);
+}
+
+TEST(TimeVerb, colours_that_luts_clamp_are_told) {
+  // A grey, and the blue of AP0, which AP1 does not hold.
+  const fs::path file = fs::temp_directory_path() / fmt::format("scotopic-time-{}.hdr", getpid());
+  {
+    std::ofstream out(file, std::ios::binary);
+    out << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n"
+           "PRIMARIES= 0.7347 0.2653 0 1 0.0001 -0.077 0.32168 0.33767\n\n-Y 1 +X 2\n";
+    const unsigned char pixels[] = {64, 64, 64, 128, 1, 1, 120, 128};
+    out.write(reinterpret_cast<const char*>(pixels), sizeof pixels);
+  }
+  const Outcome outcome =
+      run("time " + file.string() + " --adaptation 0.1 --pixels 65536 --rounds 1 --json 2>/dev/null");
+  fs::remove(file);
+  ASSERT_EQ(outcome.code, 0);
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["outsideAp1"], 1);
 }
 
 TEST(TimeVerb, csv_has_as_many_fields_in_every_row) {
