@@ -6,7 +6,7 @@ set -eu
 
 build="g++ cmake ninja-build pkg-config libopencolorio-dev libopenimageio-dev libopenexr-dev liblcms2-dev libssl-dev libhwy-dev
   libcli11-dev libfmt-dev nlohmann-json3-dev libgtest-dev libgmock-dev librapidcheck-dev libmpfr-dev valgrind
-  libegl-dev libgl-dev glslang-tools spirv-cross dpkg-dev file locales help2man pybind11-dev python3-dev python3-numpy"
+  libegl-dev libgl-dev libopengl-dev glslang-tools spirv-cross dpkg-dev file locales help2man pybind11-dev python3-dev python3-numpy"
 # The programs that looks are tested in, the data that tables are checked against, the night image.
 use="openimageio-tools opencolorio-tools python3-pyopencolorio python3-openimageio python3-scipy
   psychtoolbox-3-common blender-data liblcms2-utils icc-profiles-free ffmpeg gnuplot-nox imagemagick graphicsmagick gmic
