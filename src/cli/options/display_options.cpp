@@ -78,6 +78,8 @@ void add_display_options(CLI::App& verb, DisplayOptions& o) {
       "values alone "
       "(default for the rest); or a view of the config, as it is",
       "WHAT");
+  add("--dither", o.dither,
+      "Of PNG and TIFF of 8 bits for a display: ordered (default), by at most half a code; or none", "NAME");
   add("--tone", o.tone, "local: the literature's bilateral tone map in place of the display stage", "NAME");
   add("--contrast", o.contrast, "Span of large shapes on a display of 100 cd/m2 (default 5)", "X");
   add("--night-range", o.night_range, "Share of that left to what rods alone see (default 0.35; 1: all)",
@@ -93,6 +95,7 @@ DisplayChoice understand(const DisplayOptions& o, const StageValues& stages, Ima
   set_display(o.display, request);
   if ((request.view || request.night == NightDisplayMode::always) && request.output_colourspace)
     throw Error(ExitCode::usage, "", "either --display or --output-colorspace, not both");
+  request.dither = choice<bool>("--dither", o.dither, {{"ordered", true}, {"none", false}});
   if (!o.tone.empty()) out.tone = choice<bool>("--tone", o.tone, {{"local", true}, {"none", false}});
   if (out.tone && request.night == NightDisplayMode::always)
     throw Error(ExitCode::usage, "", "either --display night or --tone local, not both");

@@ -11,6 +11,7 @@ namespace scotopic {
 /// As typed.
 struct DisplayOptions {
   std::string display;
+  std::string dither = "ordered";
   std::string tone;
   std::string contrast = "5";
   std::string night_range = "0.35";

@@ -238,6 +238,8 @@ ImageLayout plan_layout(const PixelSource& source, const std::string& output, co
       if (copied.subimage.level_x == 0 && copied.subimage.level_y == 0) layout.outputs.push_back(copied);
     }
   }
+  // JPEG rounds in another domain, where steps of a code mean nothing.
+  layout.dither = request.dither && (layout.night || request.view) && layout.format != "jpeg";
   note_losses(source, layout);
   note_colours(source, layout);
   return layout;

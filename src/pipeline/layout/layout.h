@@ -42,6 +42,7 @@ struct ImageRequest {
   int jpeg_quality = 95;
   std::optional<PixelType> type;  ///< of the output's colour channels
   double exposure = 0;            ///< EV, applied to the result
+  bool dither = true;             ///< of what is encoded for a display in 8 bits
 };
 
 /// A subimage of the source that holds light, and the space its values are in.
@@ -68,6 +69,7 @@ struct ImageLayout {
   ColourSpace output_space;
   double exposure = 0;
   std::optional<NightOutput> night;  ///< the display stage runs
+  bool dither = false;               ///< codes of 8 bits are rounded by their place
   bool wraps = false;                ///< a panorama: its last column lies beside its first
   std::vector<std::string> notes;
 

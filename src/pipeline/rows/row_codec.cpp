@@ -6,6 +6,7 @@
 
 #include "stages/limits.h"
 #include "io/pixels/copy_pixels.h"
+#include "pipeline/rows/dither.h"
 #include "receptors/receptor_space.h"
 
 namespace scotopic {
@@ -116,9 +117,19 @@ void convert(const LightWriter& to, LightRow& light) {
   if (to.multiply_by_alpha) multiply_by_alpha(light, true);
 }
 
+/// Only between the codes: what is beyond them is clipped, and counted, as it is.
+void add_dither(LightRow& light, int x, int y) {
+  for (std::size_t i = 0; i < light.r.size(); ++i) {
+    const float offset = dither_of(x + static_cast<int>(i), y) / 255;
+    for (std::vector<float>* plane : {&light.r, &light.g, &light.b})
+      if (float& value = (*plane)[i]; value >= 0 && value <= 1) value += offset;
+  }
+}
+
 }  // namespace
 
-bool LightWriter::write(LightRow& light, const NativeRow (&out)[3], const NativeRow (*source)[3]) const {
+bool LightWriter::write(LightRow& light, const NativeRow (&out)[3], const NativeRow (*source)[3], int x,
+                        int y) const {
   const std::size_t width = light.r.size();
   const std::uint8_t* const touched = light.touched.data();
   const auto keeps = [&](std::size_t c) {
@@ -129,6 +140,7 @@ bool LightWriter::write(LightRow& light, const NativeRow (&out)[3], const Native
     return false;
   }
   convert(*this, light);
+  if (dither && out[0].type == PixelType::uint8) add_dither(light, x, y);
   const bool all = std::memchr(touched, 0, width) == nullptr;
   const std::vector<float>* const planes[3] = {&light.r, &light.g, &light.b};
   for (std::size_t c = 0; c < 3; ++c) {

@@ -85,10 +85,13 @@ struct LightWriter {
   /// Pixels that the operator left alone keep the bytes of the file, channel by channel where the types
   /// agree. True only if nothing else changes the values: same space, gain 1, alpha as it was.
   bool keep_untouched = false;
+  /// Of 8 bits: computed pixels are rounded up or down by their place; see dither_of().
+  bool dither = false;
 
   /// Changes `light` to what is written; false: it was not needed, all of the file's bytes were kept. `out`:
-  /// the channels R, G, B of one row. `source`: the channels they were read from.
-  bool write(LightRow& light, const NativeRow (&out)[3], const NativeRow (*source)[3]) const;
+  /// the channels R, G, B of one row, whose first pixel is (x, y). `source`: the channels they were read
+  /// from.
+  bool write(LightRow& light, const NativeRow (&out)[3], const NativeRow (*source)[3], int x, int y) const;
 };
 
 }  // namespace scotopic

@@ -84,6 +84,7 @@ SubimageRun::SubimageRun(const PixelSource& source, const ImageLayout& layout, c
       tally_(source_subimage_) {
   writer_.from_working = config.from_working(layout.output_space);
   writer_.gain = static_cast<float>(std::exp2(layout.exposure));
+  writer_.dither = layout.dither;
   find_others();
   set_alpha(config.linear_xyz(layout.output_space).has_value());
   const bool same_alpha =
@@ -238,10 +239,10 @@ void SubimageRun::write_row(const Band& in, int x, int row, Room& room, const Ba
   const NativeRow targets[3] = {out.channels[0].row(row), out.channels[1].row(row), out.channels[2].row(row)};
   bool changed = false;
   if (reader_.receptors()) {
-    changed = writer_.write(light, targets, nullptr);
+    changed = writer_.write(light, targets, nullptr, x, in.y0 + row);
   } else {
     const NativeRow sources[3] = {colour_row(in, row, 0), colour_row(in, row, 1), colour_row(in, row, 2)};
-    changed = writer_.write(light, targets, &sources);
+    changed = writer_.write(light, targets, &sources, x, in.y0 + row);
   }
   const bool counts = stages_.clipped && source_subimage_.level_x == 0 && source_subimage_.level_y == 0;
   if (changed && counts) *stages_.clipped += clipped_pixels(light, targets[0].type);
