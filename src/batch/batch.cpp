@@ -125,10 +125,16 @@ HWY_INLINE void apply_vector(const PixelStages<LaneNumbers<D>, stages, receptors
 }
 
 // The same by code that asks which stages are on.
+template <StageSet stages, typename T, class Rows>
+HWY_NOINLINE void apply_asking(const WideConstants<T>& main, const WideConstants<double>& exact,
+                               const Rows& rows, std::size_t at, std::uint8_t* touched) {
+  apply_vector(Fused<Tag<T>, stages>(main), exact, rows, at, touched);
+}
 template <typename T, class Rows>
-HWY_NOINLINE void apply_any(const WideConstants<T>& main, const WideConstants<double>& exact,
-                            const Rows& rows, std::size_t at, std::uint8_t* touched) {
-  apply_vector(Fused<Tag<T>>(main), exact, rows, at, touched);
+HWY_INLINE void apply_any(const WideConstants<T>& main, const WideConstants<double>& exact, const Rows& rows,
+                          std::size_t at, std::uint8_t* touched) {
+  if (HWY_UNLIKELY(main.on.rod_input)) return apply_asking<StageSet::any>(main, exact, rows, at, touched);
+  apply_asking<StageSet::usual>(main, exact, rows, at, touched);
 }
 
 // Two vectors of pixels, side by side: either waits for its own results alone.

@@ -10,6 +10,7 @@ enum class Model {
   filament2021,  ///< Cao-consistent constants as in Filament's ColorGrading: mild, in gamut; the default
   kirk2011,      ///< Kirk & O'Brien, "Perceptually Based Tone Mapping for Low-Light Conditions" (2011)
   safko2019,     ///< the same constants, on a scale the user chooses (Safko, thesis, Prague 2019)
+  cao2008,       ///< kirk2011 with rod input by local luminance (kernel/rod_input.h)
 };
 
 /// What tells one kernel from another. `opponent` is N in  Δo = N g R  with Δo = (red-green, blue-yellow,
@@ -58,7 +59,7 @@ constexpr KernelPreset make_filament2021() {
 inline constexpr double filament2021_scale = 19885.9;
 
 /// Constants of a model. safko2019 has those of kirk2011: what differs is the scale, and all around the
-/// kernel.
+/// kernel. So has cao2008, whose kappa is what its own is relative to.
 constexpr KernelPreset kernel_preset(Model model) {
   return model == Model::filament2021 ? detail::make_filament2021() : detail::make_kirk2011();
 }

@@ -36,7 +36,7 @@ class PixelStages {
   using T = typename N::T;
   using V = typename N::V;
   using M = typename N::M;
-  static constexpr bool any = stages == StageSet::any;
+  static constexpr bool any = stages == StageSet::any || stages == StageSet::usual;
 
  public:
   static constexpr bool needs_more_digits = std::is_same_v<T, float>;
@@ -66,6 +66,7 @@ class PixelStages {
   }
 
   // What stages ask, of constants or of the code compiled for them.
+  bool rod_input_by_level() const { return stages == StageSet::any && on_.rod_input; }
   bool project() const { return !any || on_.project; }
   bool gamut_is_rgb() const { return !any || on_.gamut_is_rgb; }
   bool mesopic_luminance() const { return any ? on_.mesopic_policy : stages != StageSet::grey; }

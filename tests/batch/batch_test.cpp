@@ -96,11 +96,14 @@ class BatchAgainstReference : public testing::TestWithParam<double> {};
 
 TEST_P(BatchAgainstReference, float_is_within_2e_6_of_the_pixel_s_largest_component) {
   const double la = GetParam();
-  for (const Model model : {Model::filament2021, Model::kirk2011}) {
+  for (const Model model : {Model::filament2021, Model::kirk2011, Model::cao2008}) {
     auto p = at(la, 1.0);
     p.model = model;
     const Worst worst = against_reference(p, many_colours(20000, 7, 1e-6, 1e6), Precision::single);
-    print(model == Model::kirk2011 ? "kirk2011    " : "filament2021", la, worst);
+    print(model == Model::cao2008    ? "cao2008"
+          : model == Model::kirk2011 ? "kirk2011"
+                                     : "filament2021",
+          la, worst);
     EXPECT_LE(worst.error, 2e-6);
   }
 }
@@ -141,6 +144,8 @@ TEST(Batch, options_agree_with_the_reference) {
   check("no gamut", p);
   p = at(0.05, 0.3), p.model = Model::safko2019;
   check("safko2019", p);
+  p = at(0.05, 0.3), p.model = Model::cao2008, p.weight = Weight::global, p.rods = RodEstimate::quadratic;
+  check("cao2008", p);
 }
 
 TEST(Batch, every_simd_target_gives_the_same_bits) {

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "kernel/rod_input.h"
 #include "stages/limits.h"
 
 namespace scotopic::test {
@@ -60,6 +61,8 @@ Strain strain(const OperatorConstants& c, const Sample& sample, Planes planes) {
       c.parameters.model != Model::safko2019 && local_luminance(c, pixel.rgb) >= photopic_limit;
   if (!operable || photopic) return {};
   const double rod = std::max(0.0, pixel.rod ? *pixel.rod : rod_signal_from_rgb(c, pixel.rgb));
+  const bool by_level = c.parameters.model == Model::cao2008;
+  const Vec3<double> kappa = by_level ? cao2008_kappa(local_luminance(c, pixel.rgb)) : c.kernel.kappa();
   Strain out;
   double size = 0;
   for (std::size_t j = 0; j < 3; ++j) size += std::abs(c.luminance_from_rgb[j] * pixel.rgb[j]);
@@ -73,7 +76,7 @@ Strain strain(const OperatorConstants& c, const Sample& sample, Planes planes) {
     }
     const double gain = c.kernel.gain()[i] * c.parameters.white_luminance;
     out.cancelled = out.cancelled || q < 0.1 * magnitude;
-    const double rods = c.kernel.kappa()[i] * rod, sum = q + rods, terms = magnitude + rods;
+    const double rods = kappa[i] * rod, sum = q + rods, terms = magnitude + rods;
     if (sum < -0x1p-20 * terms) continue;
     out.root = std::max(out.root, gain * terms / (1 + gain * std::max(0.0, sum)));
   }

@@ -124,6 +124,24 @@ Real scotopic_luminance(const Triple<Real>& xyz, RodEstimate estimate, const Rea
   return scotopic > floor ? scotopic : floor;
 }
 
+// Between .1027, .6228 and 10.0459 cd/m2, held beyond: the two-point form of each line.
+template <typename Real>
+Real between_levels(const Real& level, const char* darkest, const char* middle) {
+  const auto d = dec<Real>;
+  const Real a = d(".1027"), b = d(".6228"), c = d("10.0459");
+  if (level <= a) return d(darkest);
+  if (level >= c) return Real(0);
+  if (level <= b) return (d(darkest) * (b - level) + d(middle) * (level - a)) / (b - a);
+  return d(middle) * (c - level) / (c - b);
+}
+
+// Cao et al. 2008 as Wanat & Mantiuk 2014 have it.
+template <typename Real>
+Triple<Real> cao_input(const Real& level) {
+  const Real lm = between_levels(level, ".172619", ".0172619");
+  return {lm, lm, between_levels(level, ".714286", ".0202381")};
+}
+
 bool operable(const ReferencePixel& pixel) {
   const auto fine = [](double x) { return std::abs(x) <= 0x1p120; };  // false for NaN
   for (std::size_t i = 0; i < 3; ++i)
@@ -139,6 +157,7 @@ Real kernel_scale(const AppearanceParameters& p) {
     case Model::filament2021:
       return dec<Real>("19885.9");  // 380 * 52.3313, its spot-meter anchor
     case Model::kirk2011:
+    case Model::cao2008:
       break;
   }
   const Real d = exact_pupil_diameter(Real(p.adaptation));
@@ -236,18 +255,28 @@ ExactSetting<Real>::ExactSetting(const AppearanceParameters& p) : parameters(p) 
 }
 
 template <typename Real>
-Triple<Real> ExactOperator<Real>::damped_rods(const Triple<Real>& q, const Real& r) const {
+Triple<Real> ExactOperator<Real>::damped_rods(const Triple<Real>& q, const Real& r,
+                                              const Triple<Real>& kappa) const {
   const Real rods = s_.scale * at_least_0(r);
   Triple<Real> signal;
   for (std::size_t i = 0; i < 3; ++i)
     signal[i] =
-        rods / sqrt(Real(Real(1) + at_least_0(Real(s_.gain[i] * (s_.scale * q[i] + s_.kappa[i] * rods)))));
+        rods / sqrt(Real(Real(1) + at_least_0(Real(s_.gain[i] * (s_.scale * q[i] + kappa[i] * rods)))));
   return times(Real(Real(1) / s_.scale), signal);
 }
 
 template <typename Real>
+Triple<Real> ExactOperator<Real>::rods_at(const Triple<Real>& q, const Real& r, const Real& local) const {
+  if (s_.parameters.model != Model::cao2008) return damped_rods(q, r, s_.kappa);
+  const Triple<Real> kappa = cao_input(local);
+  Triple<Real> out = damped_rods(q, r, kappa);
+  for (std::size_t i = 0; i < 3; ++i) out[i] = out[i] * kappa[i] / s_.kappa[i];
+  return out;
+}
+
+template <typename Real>
 Triple<Real> ExactOperator<Real>::shift(const Triple<Real>& q, const Real& r) const {
-  return s_.cone_shift * damped_rods(q, r);
+  return s_.cone_shift * damped_rods(q, r, s_.kappa);
 }
 
 template <typename Real>
@@ -294,7 +323,7 @@ Real ExactOperator<Real>::policy_luminance(const Real& y, const Real& rod, const
 template <typename Real>
 Summed<Real> ExactOperator<Real>::safko(const Summed<Real>& q, const Real& r) const {
   const Real unit(s_.parameters.white_luminance), per_unit = Real(1) / unit;
-  const Triple<Real> rods = times(per_unit, damped_rods(times(unit, q.value), Real(unit * r)));
+  const Triple<Real> rods = times(per_unit, damped_rods(times(unit, q.value), Real(unit * r), s_.kappa));
   return {s_.rgb_from_lms_safko * plus(q.value, s_.cone_shift * rods),
           absolute(s_.rgb_from_lms_safko) * plus(q.terms, absolute(s_.cone_shift) * rods)};
 }
@@ -324,7 +353,7 @@ Summed<Real> ExactOperator<Real>::with_terms(const ReferencePixel& pixel) const 
 
   if (w > Real(0)) {
     const Triple<Real> rods =
-        times(Real(Real(1) / unit), damped_rods(times(unit, q.value), Real(unit * rod)));
+        times(Real(Real(1) / unit), rods_at(times(unit, q.value), Real(unit * rod), local));
     out.value = plus(out.value, s_.rgb_from_lms * (s_.cone_shift * times(w, rods)));
     // Of w = 1 - m: 1, however little is left near 4.998 cd/m2.
     out.terms = plus(out.terms, absolute(s_.rgb_from_lms) * (absolute(s_.cone_shift) * times(full, rods)));

@@ -68,7 +68,9 @@ class ExactOperator {
  private:
   Real policy_luminance(const Real& y, const Real& rod, const Real& m) const;
   Real rod_signal(const Triple<Real>& rgb) const;
-  Triple<Real> damped_rods(const Triple<Real>& q, const Real& r) const;  // g R/T
+  Triple<Real> damped_rods(const Triple<Real>& q, const Real& r, const Triple<Real>& kappa) const;  // g R/T
+  Triple<Real> rods_at(const Triple<Real>& q, const Real& r,
+                       const Real& local) const;  // the same, as the model has it
   Summed<Real> safko(const Summed<Real>& q, const Real& r) const;
 
   ExactSetting<Real> s_;

@@ -95,6 +95,7 @@ const std::vector<ShaderCase>& shader_cases() {
         case_of("filament2021, all", rec709, [](ShaderSpec&) {}),
         case_of("filament2021, all, of ap1", ap1, [](ShaderSpec&) {}),
         case_of("kirk2011, all", rec709, [](ShaderSpec& s) { s.parameters.model = Model::kirk2011; }),
+        case_of("cao2008, all", rec709, [](ShaderSpec& s) { s.parameters.model = Model::cao2008; }),
         case_of("safko2019", rec709,
                 [](ShaderSpec& s) {
                   s.parameters.model = Model::safko2019;

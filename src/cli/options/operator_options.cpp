@@ -71,7 +71,7 @@ void add_operator_options(CLI::App& verb, OperatorOptions& o, StagesShown shown)
       "CDM2|NAME|auto");
   add("--white-luminance", o.white_luminance,
       "What image value 1 stands for; overrides the file's whiteLuminance", "CDM2");
-  add("--model", o.model, "filament2021 (default), kirk2011, safko2019", "NAME");
+  add("--model", o.model, "filament2021 (default), kirk2011, safko2019, cao2008", "NAME");
   add("--safko-scale", o.safko_scale, "T of safko2019: its kernel's units per cd/m2 (default 1)", "X");
   add("--strength", o.strength, "Of all effects, 0 to 1: a mixture of the input and the result", "X");
   add_stage_options(verb, o.stages, shown);

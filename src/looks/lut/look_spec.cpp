@@ -21,8 +21,10 @@ struct Word {
   Enum value;
   std::string_view name;
 };
-constexpr std::array<Word<Model>, 3> models = {
-    {{Model::filament2021, "filament2021"}, {Model::kirk2011, "kirk2011"}, {Model::safko2019, "safko2019"}}};
+constexpr std::array<Word<Model>, 4> models = {{{Model::filament2021, "filament2021"},
+                                                {Model::kirk2011, "kirk2011"},
+                                                {Model::safko2019, "safko2019"},
+                                                {Model::cao2008, "cao2008"}}};
 constexpr std::array<Word<Weight>, 2> weights = {{{Weight::local, "local"}, {Weight::global, "global"}}};
 constexpr std::array<Word<LuminancePolicy>, 3> policies = {{{LuminancePolicy::mesopic, "mesopic"},
                                                             {LuminancePolicy::photopic, "photopic"},

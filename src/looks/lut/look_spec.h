@@ -21,7 +21,7 @@ struct LookSpec {
   std::string display;                                         ///< its primaries, as --gamut says such
 };
 
-/// "filament2021", "kirk2011", "safko2019".
+/// "filament2021", "kirk2011", "safko2019", "cao2008".
 std::string_view name_of(Model model);
 
 /// One line, "key=value; key=value; ...", that read_spec() reads back exactly. Part of every LUT's file.

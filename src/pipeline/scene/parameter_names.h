@@ -13,8 +13,10 @@ namespace scotopic {
 template <typename T, std::size_t count>
 using NamesOf = std::array<std::pair<const char*, T>, count>;
 
-inline constexpr NamesOf<Model, 3> model_names = {
-    {{"filament2021", Model::filament2021}, {"kirk2011", Model::kirk2011}, {"safko2019", Model::safko2019}}};
+inline constexpr NamesOf<Model, 4> model_names = {{{"filament2021", Model::filament2021},
+                                                   {"kirk2011", Model::kirk2011},
+                                                   {"safko2019", Model::safko2019},
+                                                   {"cao2008", Model::cao2008}}};
 inline constexpr NamesOf<Weight, 2> weight_names = {{{"local", Weight::local}, {"global", Weight::global}}};
 inline constexpr NamesOf<LuminancePolicy, 3> luminance_names = {{{"mesopic", LuminancePolicy::mesopic},
                                                                  {"photopic", LuminancePolicy::photopic},

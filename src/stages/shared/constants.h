@@ -45,6 +45,7 @@ template <class V>
 V kernel_scale_at(const AppearanceParameters& p, const V& adaptation) {
   switch (p.model) {
     case Model::kirk2011:
+    case Model::cao2008:
       return closed_forms::trolands_per_luminance(adaptation);
     case Model::safko2019:
       return p.safko_scale;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "adaptation/mesopic.h"
+#include "kernel/rod_input.h"
 #include "receptors/receptor_space.h"
 #include "stages/shared/constants.h"
 #include "stages/shared/mesopic_fit.h"
@@ -52,6 +53,22 @@ struct ReceptorConstants {
   std::array<T, 6> rod_quadratic;
 };
 
+/// kappa of one pathway by level, max(0, min(held, max(knee + steep (level[0] - L), shallow (level[1] -
+/// L)))): convex where it is not held, so the greater of its two lines (kernel/rod_input.h).
+template <typename T>
+struct RodInputLines {
+  T held, knee, steep, shallow;
+  T inverse_usual;  ///< 1 / kappa of kirk2011
+};
+
+/// Model::cao2008.
+template <typename T>
+struct RodInputConstants {
+  T behind;                ///< as in the weight: rods count as in the light they are used to
+  std::array<T, 2> level;  ///< cd/m2: where each line ends
+  RodInputLines<T> lm, s;
+};
+
 /// The kernel, and the projection of what it moves.
 template <typename T>
 struct ShiftConstants {
@@ -62,6 +79,7 @@ struct ShiftConstants {
   T strength;
   Matrix3<T> gamut_from_rgb, rgb_from_gamut;
   std::array<typename GamutProjection<T>::ActiveSet, GamutProjection<T>::active_sets> active;
+  RodInputConstants<T> input;
 };
 
 /// Luminance policy.
@@ -83,7 +101,7 @@ struct ChromaConstants {
 /// What is on.
 struct StageSwitches {
   bool safko, local, mesopic_policy, quadratic_rods, shift, project, gamut_is_rgb, luminance, chroma, mix,
-      adapting;
+      adapting, rod_input;
 
   explicit StageSwitches(const OperatorConstants& c) noexcept
       : safko(c.parameters.model == Model::safko2019),
@@ -96,13 +114,15 @@ struct StageSwitches {
         luminance(c.luminance > 0),
         chroma(c.chroma > 0),
         mix(c.mix > 0 && c.mix < 1),
-        adapting(c.parameters.rod_adaptation.has_value()) {}
+        adapting(c.parameters.rod_adaptation.has_value()),
+        rod_input(c.parameters.model == Model::cao2008) {}
 };
 
 /// Stages that code without branches is compiled for; all with local weight, linear rods, and a projection
 /// into the gamut of the RGB that comes in where there is a shift. `any` asks the switches instead.
 enum class StageSet {
   any,
+  usual,  ///< any, but rod input is the preset's own: its code is the shorter for it
   all,    ///< shift, mesopic luminance, chroma: what a look has by default
   grey,   ///< shift, photopic luminance, chroma: what the planner leaves of it where S/P ratios are white's
   shift,  ///< one alone
@@ -112,7 +132,7 @@ enum class StageSet {
 
 /// The set that is on; any, where there is no loop for just that.
 constexpr StageSet stage_set(const StageSwitches& on) noexcept {
-  if (on.adapting || on.quadratic_rods || (on.mix && !on.safko)) return StageSet::any;
+  if (on.adapting || on.rod_input || on.quadratic_rods || (on.mix && !on.safko)) return StageSet::any;
   if (on.safko) return StageSet::kernel;
   if (!on.local || (on.shift && !on.gamut_is_rgb)) return StageSet::any;
   if (on.shift && on.luminance && on.chroma) return on.mesopic_policy ? StageSet::all : StageSet::grey;
@@ -179,6 +199,22 @@ ReceptorConstants<T> receptor_constants(const OperatorConstants& c) {
 }
 
 template <typename T>
+RodInputLines<T> rod_input_lines(const double (&level)[3], const double (&kappa)[3], double usual) {
+  const auto t = [](double x) { return static_cast<T>(x); };
+  const auto slope = [&](std::size_t i) { return t((kappa[i] - kappa[i + 1]) / (level[i + 1] - level[i])); };
+  return {t(kappa[0]), t(kappa[1]), slope(0), slope(1), t(1 / usual)};
+}
+
+template <typename T>
+RodInputConstants<T> rod_input_constants(const AppearanceParameters& p, const Vec3<double>& usual) {
+  const auto& [level, of_lm, of_s] = cao2008_table;
+  return {static_cast<T>(p.rod_adaptation.value_or(p.adaptation) - p.adaptation),
+          {static_cast<T>(level[1]), static_cast<T>(level[2])},
+          rod_input_lines<T>(level, of_lm, usual[0]),
+          rod_input_lines<T>(level, of_s, usual[2])};
+}
+
+template <typename T>
 ShiftConstants<T> shift_constants(const OperatorConstants& c) {
   const AppearanceParameters& p = c.parameters;
   const Matrix3<double> back = p.model == Model::safko2019 ? rgb_from_lms_cat02(p) : c.rgb_from_lms;
@@ -189,6 +225,7 @@ ShiftConstants<T> shift_constants(const OperatorConstants& c) {
   k.rgb_shift = (back * c.kernel.cone_shift()).to<T>();
   k.rgb_from_lms = back.to<T>();
   k.strength = static_cast<T>(c.shift);
+  k.input = rod_input_constants<T>(p, c.kernel.kappa());
   k.gamut_from_rgb = c.gamut_from_rgb.to<T>();
   k.rgb_from_gamut = c.rgb_from_gamut.to<T>();
   if (!c.project) return k;

@@ -113,7 +113,8 @@ TEST(Completion, bash_offers_the_verbs_and_every_option_of_a_verbs_help) {
 }
 
 TEST(Completion, bash_offers_the_values_that_the_program_takes) {
-  EXPECT_EQ(offered("apply --model \"\""), (std::set<std::string>{"filament2021", "kirk2011", "safko2019"}));
+  EXPECT_EQ(offered("apply --model \"\""),
+            (std::set<std::string>{"cao2008", "filament2021", "kirk2011", "safko2019"}));
   EXPECT_EQ(offered("apply --weight gl"), std::set<std::string>{"global"});
   EXPECT_EQ(offered("lmsr --rods \"\""), (std::set<std::string>{"linear", "quadratic"}));
   EXPECT_TRUE(offered("apply -d \"\"").count("uint16"));

@@ -180,7 +180,7 @@ std::vector<double> numbers_in(const std::string& text) {
 
 TEST(LookFiles, no_number_is_infinite_or_nan_or_subnormal_however_extreme_the_light) {
   std::size_t numbers = 0;
-  for (const Model model : {Model::filament2021, Model::kirk2011, Model::safko2019})
+  for (const Model model : {Model::filament2021, Model::kirk2011, Model::safko2019, Model::cao2008})
     for (const double adaptation : {1e-9, 1e-3, 4.9, 5.0, 1e9})
       for (const double white : {1e-9, 1.0, 1e9}) {
         AppearanceParameters p = test::adapted_to(adaptation, "rec709", model);

@@ -76,7 +76,7 @@ TEST(LookChain, error_falls_with_the_square_of_the_edge) {
 }
 
 TEST(LookChain, every_number_in_gives_a_finite_one_out_and_alpha_keeps_its_bits) {
-  for (const Model model : {Model::filament2021, Model::kirk2011})
+  for (const Model model : {Model::filament2021, Model::kirk2011, Model::cao2008})
     for (const double la : {0.001, 0.1, 3.0}) {
       const OddPixels odd = odd_pixels(look(adapted_to(la, "rec709", model)));
       EXPECT_EQ(odd.tested, 2197u);
