@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
 
 #include "host/parameters.h"
+#include "pipeline/scene/parameter_names.h"
 #include "pipeline/stages/stage_values.h"
 
 namespace scotopic {
@@ -36,12 +38,19 @@ struct Words {
   std::vector<std::string> words;  // the first is the default
 };
 
+template <typename T, std::size_t count>
+std::vector<std::string> words_of(const NamesOf<T, count>& names) {
+  std::vector<std::string> out;
+  for (const auto& [name, value] : names) out.emplace_back(name);
+  return out;
+}
+
 const std::vector<Words>& word_lists() {
-  static const std::vector<Words> lists = {{"model", {"filament2021", "kirk2011", "safko2019"}},
-                                           {"weight", {"local", "global"}},
-                                           {"luminance", {"mesopic", "photopic", "none"}},
+  static const std::vector<Words> lists = {{"model", words_of(model_names)},
+                                           {"weight", words_of(weight_names)},
+                                           {"luminance", words_of(luminance_names)},
                                            {"gamut", {"working", "rec709", "rec2020", "p3", "ap1", "none"}},
-                                           {"rods", {"linear", "quadratic"}},
+                                           {"rods", words_of(rod_names)},
                                            {"precision", {"float", "double"}},
                                            {"tone", {"none", "local"}},
                                            {"projection", {"flat", "latlong"}},

@@ -22,6 +22,7 @@ def night(height, width, components=3, dtype="float32", seed=1):
 STAGES = {
     "pixel stages": dict(adaptation=0.01),
     "another model": dict(adaptation=0.1, model="kirk2011", rods="quadratic"),
+    "rods by level": dict(adaptation=0.1, model="cao2008"),
     "metered, a unit": dict(white_luminance=5),
     "metered on a region": dict(white_luminance=5, adaptation="auto:3,2,20,9"),
     "nothing called for": dict(adaptation=100),
