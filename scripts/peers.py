@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 """Other programs and formulas for night vision, beside this one, on the same picture: numbers, and with --write
-docs/peers.md and docs/images/peers.jpg.
+docs/peers.md, docs/images/peers.jpg (colours, each at the original's exposure) and docs/images/peers_display.jpg (what a
+display is sent).
 
 peers.py [--write | --picture | --quick | --check] [SCOTOPIC]     (default build/release/src/cli/scotopic)
 
 A program that is not installed is left out, and said; --write wants all of them (Debian: pfstmo pfstools darktable
-opencolorio-tools). Processor time is of the process and its children, user and system; of two pictures, one four times
+opencolorio-tools; pcond of Radiance, which Debian has not). Processor time is of the process and its children, user and system; of two pictures, one four times
 the other, so that starting up does not count.
 """
 import argparse
@@ -25,6 +26,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 NIGHT = '/usr/share/blender/datafiles/studiolights/world/night.exr'
 LA = 0.05                       # cd/m2 that the eye is adapted to, 0.18 in the pictures
 UNIT = LA / .18                 # cd/m2 of value 1
+FOV = 40                        # degrees of the width
 XYZ_FROM_RGB = numpy.array([[.4123908, .3575843, .1804808], [.2126390, .7151687, .0721923], [.0193308, .1191948, .9505322]])
 RGB_FROM_XYZ = numpy.linalg.inv(XYZ_FROM_RGB)
 
@@ -54,6 +56,7 @@ def linear(encoded):
 class System:
     """One way to see a picture. `see` takes and gives linear Rec.709, shape (rows, columns, 3)."""
     needs = ()
+    as_it_is = False            # a picture for a display, whose brightness is part of it
 
     def __init__(self, folder, program):
         self.folder = folder
@@ -87,6 +90,18 @@ class Scotopic(System):
         self.run([self.program, 'apply', self.file('in.exr'), '-o', self.file('out.exr'), '-q', '--threads', '1',
                   '--adaptation', str(self.adaptation), '--white-luminance', str(UNIT), *self.options])
         return read(self.file('out.exr'))
+
+
+class Night(System):
+    """The whole: glare, what the eye sees, and the display stage."""
+    name = 'scotopic apply, for a display'
+    as_it_is = True
+
+    def see(self, rgb):
+        write(self.file('in.exr'), rgb, attributes=[('compression', 'none')])
+        self.run([self.program, 'apply', self.file('in.exr'), '-o', self.file('out.tif'), '-d', 'uint16', '-q', '--threads', '1',
+                  '--adaptation', str(LA), '--white-luminance', str(UNIT), '--fov', str(FOV)])
+        return linear(read(self.file('out.tif')))
 
 
 class Kirk(Scotopic):
@@ -194,7 +209,24 @@ class WardLarson(System):
         return photopic * rgb + (1 - photopic) * scotopic / white
 
 
-SYSTEMS = (Scotopic, Kirk, Look, FilamentLike, WardLarson, Pattanaik, Ferradans, Darktable)
+class Pcond(System):
+    """Radiance's human tone map: veil, acuity, colour and contrast of Ward Larson, Rushmeier & Piatko 1997."""
+    name = 'pcond -h'
+    needs = ('pcond',)
+    as_it_is = True
+
+    def see(self, rgb):
+        write(self.file('plain.hdr'), rgb * UNIT / 179)     # lumens per watt of Radiance's white
+        head, pixels = open(self.file('plain.hdr'), 'rb').read().split(b'\n\n', 1)
+        height, width = rgb.shape[:2]
+        view = f'\nVIEW= -vtv -vh {FOV} -vv {FOV * height / width:.3f}'.encode()
+        with open(self.file('in.hdr'), 'wb') as hdr:
+            hdr.write(head + view + b'\n\n' + pixels)
+        self.run(['pcond', '-h', self.file('in.hdr')], sink=self.file('out.hdr'))
+        return read(self.file('out.hdr'))
+
+
+SYSTEMS = (Scotopic, Kirk, Look, FilamentLike, WardLarson, Pattanaik, Ferradans, Darktable, Night, Pcond)
 
 
 def card():
@@ -324,11 +356,12 @@ def main():
     parser.add_argument('--write', action='store_true')
     parser.add_argument('--quick', action='store_true', help='no times')
     parser.add_argument('--check', action='store_true', help="scotopic's rows alone, no times; exit 1 where they are not as docs/peers.md says")
-    parser.add_argument('--picture', action='store_true', help='write docs/images/peers.jpg alone')
+    parser.add_argument('--picture', action='store_true', help='write the pictures alone')
     parser.add_argument('program', nargs='?', default=os.path.join(ROOT, 'build/release/src/cli/scotopic'))
     arguments = parser.parse_args()
     night = read(NIGHT)
-    rows, pictures, missing = [], [shown(part_of(night), 1)], []
+    original = shown(part_of(night), 1)
+    rows, pictures, for_displays, missing = [], [original], [original], []
     for kind in SYSTEMS[:3] if arguments.check else SYSTEMS:
         with tempfile.TemporaryDirectory() as folder:
             system = kind(folder, os.path.abspath(arguments.program))
@@ -340,14 +373,19 @@ def main():
                 rows.append(measure(system, night, arguments.quick or arguments.check))
                 print(table(rows[-1:]).splitlines()[-1], flush=True)
             if arguments.picture or arguments.write:
-                # One exposure for all: the median of what each makes is as bright as the original's.
                 seen = part_of(system.see(night))
+                if system.as_it_is or isinstance(system, Pfs):
+                    for_displays.append(shown(seen, 1))
+                if system.as_it_is:
+                    continue
+                # One exposure for all: the median of what each makes is as bright as the original's.
                 pictures.append(shown(seen, numpy.median(luminance(seen)) / numpy.median(luminance(part_of(night)))))
     if missing and (arguments.picture or arguments.write):
         sys.exit('nothing is written: ' + '; '.join(missing))
     if arguments.picture or arguments.write:
-        write(os.path.join(ROOT, 'docs/images/peers.jpg'), side_by_side(pictures), oiio.UINT8,
-              [('jpeg:subsampling', '4:4:4'), ('CompressionQuality', 88)])
+        for name, parts in (('peers', pictures), ('peers_display', for_displays)):
+            write(os.path.join(ROOT, f'docs/images/{name}.jpg'), side_by_side(parts), oiio.UINT8,
+                  [('jpeg:subsampling', '4:4:4'), ('CompressionQuality', 88)])
     if arguments.write:
         write_table(rows)
     if not arguments.check:
