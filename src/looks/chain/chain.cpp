@@ -5,9 +5,10 @@
 namespace scotopic {
 namespace {
 
+/// As files have it: never -0.
 double rounded(double value, int decimals) {
   const double scale = std::pow(10.0, decimals);
-  return std::nearbyint(value * scale) / scale;
+  return std::nearbyint(value * scale) / scale + 0.0;
 }
 
 struct Rounding {

@@ -20,7 +20,8 @@ struct FitPoint {
   CubePoint at;
   std::array<float, 3> wanted{};
   Metric metric{};
-  double weight = 1;  ///< of its set
+  double share = 1;   ///< of its set's weight
+  double weight = 1;  ///< that it counts with
 };
 
 void add_points(std::vector<FitPoint>& points, const CubeGoal& goal, std::size_t edge,
@@ -34,7 +35,7 @@ void add_points(std::vector<FitPoint>& points, const CubeGoal& goal, std::size_t
     p.at = cube_point({set.codes.r[i], set.codes.g[i], set.codes.b[i]}, edge);
     p.wanted = {out.r[i], out.g[i], out.b[i]};
     p.metric = metrics[i];
-    p.weight = set.weight / static_cast<double>(out.size());
+    p.share = p.weight = set.weight / static_cast<double>(out.size());
     points.push_back(p);
   }
 }
@@ -50,6 +51,21 @@ class Misfit {
     std::stable_sort(points_.begin(), points_.end(),
                      [](const auto& a, const auto& b) { return a.at.cell < b.at.cell; });
     hold_ = hold * mean_weight();
+  }
+
+  /// Counts each colour by 1/its difference, the worse of its readings: the sum of squares becomes one of
+  /// differences (iteratively reweighted least squares), so a few that no node can hold do not spoil the
+  /// rest.
+  void count_differences(const Values& nodes) {
+    constexpr double scale = 0.1, floor = 0.01;  // CIEDE2000; by trial. Below the floor all is well.
+    for (FitPoint& p : points_) {
+      double worse = 0;
+      for (const Reading reading : readings) {
+        const Vec3<double> d = difference(p, value(nodes, node_shares(p.at, edge_, reading)));
+        worse = std::max(worse, dot(d, p.metric * d));
+      }
+      p.weight = p.share * scale / (std::sqrt(worse) + floor);
+    }
   }
 
   /// Half the gradient, negative: where the nodes are to go.
@@ -176,9 +192,13 @@ std::vector<double> sampled_nodes(const CubeGoal& goal, std::size_t edge) {
 std::vector<double> fitted_nodes(const CubeGoal& goal, std::size_t edge, std::vector<double> nodes,
                                  const std::vector<FitColours>& sets, const FitOptions& options) {
   const Values held = nodes;
-  const Misfit misfit(goal, edge, sets, held, options.hold);
+  Misfit misfit(goal, edge, sets, held, options.hold);
   descend(nodes, misfit, options.steps);
-  for (double& x : nodes) x = std::clamp(x, 0.0, 1.0);
+  for (int round = 0; round < options.rounds; ++round) {
+    misfit.count_differences(nodes);
+    descend(nodes, misfit, options.steps / 2);
+  }
+  for (double& x : nodes) x = std::clamp(x, -nodes_beyond, 1 + nodes_beyond);
   return nodes;
 }
 

@@ -35,6 +35,15 @@ TEST(NumberText, shortest_fixed_and_rounded) {
   EXPECT_EQ(rounded_text(0.0345678, 2), "0.035");
 }
 
+TEST(Chain, is_rounded_as_files_have_it_without_minus_nought) {
+  Chain chain;
+  chain.steps = {Lut3DStep{1, {-1e-9, 0.12345678, -0.25}, 6}};
+  round_as_written(chain);
+  const std::vector<double>& got = std::get<Lut3DStep>(chain.steps[0]).values;
+  EXPECT_FALSE(std::signbit(got[0]));
+  EXPECT_EQ(got, (std::vector<double>{0, 0.123457, -0.25}));
+}
+
 LookSpec some_spec() {
   LookSpec spec;
   spec.parameters = test::adapted_to(0.03, "ap1", Model::kirk2011);
