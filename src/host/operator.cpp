@@ -61,8 +61,8 @@ bool values_stay(const ImageSettings& s) {
 HostOperator::HostOperator(const Parameters& parameters)
     : parameters_(parameters),
       options_(options_of(parameters)),
-      evaluators_(understand(options_.precision)),
-      settings_(understand(options_)) {
+      evaluators_(parse(options_.precision)),
+      settings_(parse(options_)) {
   check_view(settings_.request, settings_.config, {});
 }
 

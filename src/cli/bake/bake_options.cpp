@@ -32,7 +32,7 @@ std::vector<double> adaptations_of(const BakeOptions& o) {
 }
 
 OperatorChoice operator_choice(const OperatorOptions& o) {
-  const OperatorChoice out = understand(o);
+  const OperatorChoice out = parse(o);
   for (const StageEntry& entry : out.stages.table()) {
     const StageDescription& stage = *entry.description;
     if (stage.not_in_a_look.empty() || out.stages.wish(stage.name) != EffectWish::yes) continue;

@@ -90,7 +90,7 @@ void add_display_options(CLI::App& verb, DisplayOptions& o) {
       "Scene luminances of large shapes to be spanned: auto, or LOW,HIGH in cd/m2", "RANGE");
 }
 
-DisplayChoice understand(const DisplayOptions& o, const StageValues& stages, ImageRequest& request) {
+DisplayChoice parse(const DisplayOptions& o, const StageValues& stages, ImageRequest& request) {
   DisplayChoice out;
   set_display(o.display, request);
   if ((request.view || request.night == NightDisplayMode::always) && request.output_colourspace)

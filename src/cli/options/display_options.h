@@ -23,6 +23,6 @@ void add_display_options(CLI::App& verb, DisplayOptions& options);
 
 /// Error(usage) for a value that is not understood, and for options of a stage that does not run. Sets the
 /// view of `request`, and whether the display stage runs.
-DisplayChoice understand(const DisplayOptions& options, const StageValues& stages, ImageRequest& request);
+DisplayChoice parse(const DisplayOptions& options, const StageValues& stages, ImageRequest& request);
 
 }  // namespace scotopic

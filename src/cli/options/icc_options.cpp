@@ -13,7 +13,7 @@ void add_icc_options(CLI::App& verb, IccOptions& o) {
   add("--quality", o.jpeg_quality, "Of JPEG, 1 to 100 (default 95)", "N");
 }
 
-void understand(const IccOptions& o, ImageRequest& request) {
+void parse(const IccOptions& o, ImageRequest& request) {
   request.jpeg_quality =
       static_cast<int>(number_in("--quality", o.jpeg_quality, 1, 100, "a quality from 1 to 100"));
   RenderingIntent intent = RenderingIntent::relative;

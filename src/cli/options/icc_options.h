@@ -20,6 +20,6 @@ void add_icc_options(CLI::App& verb, IccOptions& options);
 
 /// Reads the profile into `request`. Error(usage) for a value that is not understood or that other options
 /// exclude; Error(config) for a profile that is none.
-void understand(const IccOptions& options, ImageRequest& request);
+void parse(const IccOptions& options, ImageRequest& request);
 
 }  // namespace scotopic

@@ -100,7 +100,7 @@ ColourConfig config_at(const std::string& file, const ImageOptions& o) {
   return ColourConfig::from_file(file, o.limits, working_primaries(o.working_primaries));
 }
 
-ImageRequest understand(const ImageOptions& o) {
+ImageRequest parse(const ImageOptions& o) {
   ImageRequest out;
   out.layer = o.layer;
   if (!o.colourspace.empty()) out.colourspace = o.colourspace;

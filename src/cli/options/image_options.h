@@ -39,6 +39,6 @@ std::optional<Matrix3<double>> working_primaries(const std::string& text);
 void add_working_primaries(CLI::App& verb, std::string& value);
 
 /// Error(usage) for a value that is not understood.
-ImageRequest understand(const ImageOptions& options);
+ImageRequest parse(const ImageOptions& options);
 
 }  // namespace scotopic

@@ -87,7 +87,7 @@ void add_operator_options(CLI::App& verb, OperatorOptions& o, StagesShown shown)
   add("--rods", o.rods, "Rods from colour: linear (default) or quadratic", "NAME");
 }
 
-OperatorChoice understand(const OperatorOptions& o) {
+OperatorChoice parse(const OperatorOptions& o) {
   OperatorChoice out;
   if (const std::optional<AdaptationMethod> metering = parse_adaptation_method(o.adaptation))
     out.metering = *metering;
@@ -105,7 +105,7 @@ OperatorChoice understand(const OperatorOptions& o) {
   }
   p.strength.all = number_in("--strength", o.strength, 0, 1, "a strength from 0 (off) to 1 (the model)");
   out.plan_effects = o.stages.effects == "auto";
-  out.stages = understand(o.stages);
+  out.stages = parse(o.stages);
   out.stages.set_pixel_stages(p);
   p.weight = choice("--weight", o.weight, known(weight_names));
   p.luminance = choice("--luminance", o.luminance, known(luminance_names));

@@ -31,7 +31,7 @@ void add_operator_options(CLI::App& verb, OperatorOptions& options, StagesShown 
 
 /// Error(usage) for the first value that is not understood. Looks at nothing but the text, and an
 /// illuminant.s file.
-OperatorChoice understand(const OperatorOptions& options);
+OperatorChoice parse(const OperatorOptions& options);
 
 /// What was asked for and the model has not got: "--strength, --gamut"; empty where there is nothing of the
 /// kind.

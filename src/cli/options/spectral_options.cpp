@@ -66,8 +66,7 @@ IlluminantChoice parse_illuminant(const std::string& text) {
                  did_you_mean(text, names));
 }
 
-SpectralOptions understand(const BandOptions& o, const IlluminantChoice& illuminant,
-                           const std::string& layer) {
+SpectralOptions parse(const BandOptions& o, const IlluminantChoice& illuminant, const std::string& layer) {
   SpectralOptions out;
   out.layer = layer;
   out.sampling =

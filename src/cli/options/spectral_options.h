@@ -22,7 +22,7 @@ IlluminantChoice parse_illuminant(const std::string& text);
 
 /// The illuminant's spectrum is used where the file turns out to hold reflectance. Error(usage) for a value
 /// that is not understood.
-SpectralOptions understand(const BandOptions& options, const IlluminantChoice& illuminant,
-                           const std::string& layer);
+SpectralOptions parse(const BandOptions& options, const IlluminantChoice& illuminant,
+                      const std::string& layer);
 
 }  // namespace scotopic

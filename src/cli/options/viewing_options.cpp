@@ -14,7 +14,7 @@ void add_viewing_options(CLI::App& verb, ViewingOptions& o) {
       "flat or latlong (360 degrees wide); default: what an EXR's envmap says, else flat", "NAME");
 }
 
-ViewingChoice understand(const ViewingOptions& o) {
+ViewingChoice parse(const ViewingOptions& o) {
   ViewingChoice out;
   if (!o.pixels_per_degree.empty()) {
     if (!o.field_of_view.empty()) fail_value("--fov", o.field_of_view, "either --ppd or --fov, not both");

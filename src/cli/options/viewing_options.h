@@ -18,6 +18,6 @@ struct ViewingOptions {
 void add_viewing_options(CLI::App& verb, ViewingOptions& options);
 
 /// Error(usage) for a value that is not understood, and for --ppd beside --fov.
-ViewingChoice understand(const ViewingOptions& options);
+ViewingChoice parse(const ViewingOptions& options);
 
 }  // namespace scotopic

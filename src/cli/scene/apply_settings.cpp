@@ -23,12 +23,12 @@ void add_apply_options(CLI::App& verb, ApplyOptions& o) {
       ->type_name("WHAT");
 }
 
-ImageSettings understand(const ApplyOptions& o) {
+ImageSettings parse(const ApplyOptions& o) {
   const NonFinite non_finite = non_finite_policy(o.non_finite);
-  ImageRequest request = understand(o.scene.image);
-  ImageSettings out = understand(o.scene);
-  DisplayChoice display = understand(o.display, out.choice.stages, request);
-  understand(o.icc, request);
+  ImageRequest request = parse(o.scene.image);
+  ImageSettings out = parse(o.scene);
+  DisplayChoice display = parse(o.display, out.choice.stages, request);
+  parse(o.icc, request);
   if (request.view) out.config = out.config.holding(*request.view);
   out.request = std::move(request);
   out.display = std::move(display);

@@ -24,7 +24,7 @@ struct ApplyOptions {
 /// All but those of a scene (add_scene_options), of input, output and ICC.
 void add_apply_options(CLI::App& verb, ApplyOptions& options);
 
-/// In the order in which faults are to be told; see understand(SceneOptions).
-ImageSettings understand(const ApplyOptions& options);
+/// In the order in which faults are to be told; see parse(SceneOptions).
+ImageSettings parse(const ApplyOptions& options);
 
 }  // namespace scotopic

@@ -20,7 +20,7 @@ void add_precision_options(CLI::App& verb, PrecisionOptions& o) {
   demand("--budget", o.budget, "The most accurate way that takes no longer for a pixel on one thread", "NS");
 }
 
-std::unique_ptr<EvaluatorSource> understand(const PrecisionOptions& o) {
+std::unique_ptr<EvaluatorSource> parse(const PrecisionOptions& o) {
   EvaluatorDemand demand;
   if (!o.max_error.empty())
     demand.max_error =

@@ -19,6 +19,6 @@ struct PrecisionOptions {
 void add_precision_options(CLI::App& verb, PrecisionOptions& options);
 
 /// Error(usage) for a value that is not understood.
-std::unique_ptr<EvaluatorSource> understand(const PrecisionOptions& options);
+std::unique_ptr<EvaluatorSource> parse(const PrecisionOptions& options);
 
 }  // namespace scotopic

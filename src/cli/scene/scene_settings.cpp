@@ -40,12 +40,12 @@ void add_scene_options(CLI::App& verb, SceneOptions& o) {
   add_viewing_options(verb, o.viewing);
 }
 
-ImageSettings understand(const SceneOptions& o) {
-  OperatorChoice choice = understand(o.appearance);
-  const ViewingChoice viewing = understand(o.viewing);
+ImageSettings parse(const SceneOptions& o) {
+  OperatorChoice choice = parse(o.appearance);
+  const ViewingChoice viewing = parse(o.viewing);
   TimeChoice time = history_of(o.history);
-  ImageRequest request = understand(o.image);
-  SpectralOptions spectral = understand(o.bands, choice.illuminant, o.image.layer);
+  ImageRequest request = parse(o.image);
+  SpectralOptions spectral = parse(o.bands, choice.illuminant, o.image.layer);
   ImageSettings out(config_in_force(o.image));
   check_spaces(request, out.config);
   set_primaries(choice, out.config);

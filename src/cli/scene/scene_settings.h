@@ -24,6 +24,6 @@ void add_scene_options(CLI::App& verb, SceneOptions& options);
 
 /// With the colour config in force; add_stages() is still to be called. Faults are told in the order of the
 /// options' groups.
-ImageSettings understand(const SceneOptions& options);
+ImageSettings parse(const SceneOptions& options);
 
 }  // namespace scotopic

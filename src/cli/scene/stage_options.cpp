@@ -80,7 +80,7 @@ void add_stage_options(CLI::App& verb, StageOptions& o, StagesShown shown) {
         ->group("Detail");
 }
 
-StageValues understand(const StageOptions& o) {
+StageValues parse(const StageOptions& o) {
   StageValues values(o.table);
   values.set_effects(o.effects);
   for (const StageEntry& entry : o.table)

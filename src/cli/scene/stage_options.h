@@ -27,6 +27,6 @@ struct StageOptions {
 void add_stage_options(CLI::App& verb, StageOptions& options, StagesShown shown);
 
 /// Error(usage) for a value that is not understood.
-StageValues understand(const StageOptions& options);
+StageValues parse(const StageOptions& options);
 
 }  // namespace scotopic

@@ -41,7 +41,7 @@ class ApplyJob : public FrameJob {
 };
 
 ApplyJob::ApplyJob(const ApplyOptions& o, bool sequence, const Console& console)
-    : evaluators_(understand(o.precision)), settings_(understand(o)) {
+    : evaluators_(parse(o.precision)), settings_(parse(o)) {
   settings_.sequence = sequence;
   check_view(settings_.request, settings_.config, console.notes());
   if (const std::string idle = without_effect(o.scene.appearance, settings_.choice); !idle.empty())

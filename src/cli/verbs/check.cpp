@@ -35,7 +35,7 @@ struct OnImage {
 OnImage compare_on_image(const CheckOptions& o, const ColourConfig& config, const LookSpec& spec,
                          const OCIO_NAMESPACE::ConstCPUProcessorRcPtr& processor) {
   const std::unique_ptr<PixelSource> source = open_source(o.picture, o.image.limits);
-  const ImageLayout layout = read_layout(*source, config, understand(o.image));
+  const ImageLayout layout = read_layout(*source, config, parse(o.image));
   Comparison comparison(spec.parameters.xyz_from_rgb);
   std::size_t width = 0;
   each_light_row(*source, layout, config, [&](const LightRow& row) {

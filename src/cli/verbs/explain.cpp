@@ -86,7 +86,7 @@ int run_explain(const ExplainOptions& options) {
   if (options.input.empty()) throw Error(ExitCode::usage, "", "IN is required: an image, or an OCIO config");
   if (is_config(options.input)) return run_explain_config(options, console);
   const std::vector<Frame> frames = frames_of(options.frames, options.input, "");
-  ImageSettings settings = understand(options.scene);
+  ImageSettings settings = parse(options.scene);
   settings.sequence = frames.front().number.has_value();
   settings.measure = !settings.sequence;
   add_stages(settings);

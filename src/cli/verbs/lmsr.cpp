@@ -54,7 +54,7 @@ RodChoice resolve_rods(const LmsrOptions& o, const IlluminantChoice& illuminant)
 }
 
 SpectralOptions resolve_spectral(const LmsrOptions& o, const IlluminantChoice& illuminant) {
-  SpectralOptions out = understand(o.bands, illuminant, o.image.layer);
+  SpectralOptions out = parse(o.bands, illuminant, o.image.layer);
   out.accumulation = choice<Accumulation>("--precision", o.accumulation,
                                           {{"double", Accumulation::dual}, {"float", Accumulation::single}});
   out.xyz = false;
@@ -98,7 +98,7 @@ LmsrJob::LmsrJob(const LmsrOptions& o)
       rods_(resolve_rods(o, illuminant_)),
       rods_name_(o.rods),
       spectral_(resolve_spectral(o, illuminant_)),
-      request_(understand(o.image)),
+      request_(parse(o.image)),
       limits_(o.image.limits),
       white_luminance_(resolve_unit(o)),
       config_(config_in_force(o.image)) {

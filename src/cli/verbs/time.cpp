@@ -97,7 +97,7 @@ Subject subject_by_formula(const OperatorChoice& choice) {
 Subject subject_of_image(const TimeOptions& options, const OperatorChoice& choice, const ColourConfig& config,
                          const Console& console) {
   const std::unique_ptr<PixelSource> source = open_source(options.input, options.image.limits);
-  const ImageLayout layout = read_layout(*source, config, understand(options.image));
+  const ImageLayout layout = read_layout(*source, config, parse(options.image));
   const Window& w = source->subimages()[layout.light.front().index].data;
   check_limit(source->file(), "bytes of memory planned", 12 * std::int64_t{w.width()} * w.height(),
               options.image.limits.memory, "--max-memory");
@@ -141,7 +141,7 @@ std::function<void(int, int)> progress_line(const TimeOptions& options) {
 
 int run_time(const TimeOptions& options) {
   const Console console(options.common);
-  OperatorChoice choice = understand(options.appearance);
+  OperatorChoice choice = parse(options.appearance);
   const auto pixels = static_cast<std::size_t>(
       number_in("--pixels", options.pixels, 1 << 16, 1 << 28, "a count of 65536 to 268435456"));
   const auto rounds =
