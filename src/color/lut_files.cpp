@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "base/error.h"
@@ -43,16 +44,33 @@ class Walk {
       way(looks->getSrc(), looks->getDst(), direction);
       looks_in(looks->getLooks());
     } else if (const auto view = OCIO::DynamicPtrCast<const OCIO::DisplayViewTransform>(step)) {
-      way(view->getSrc(), config_->getDisplayViewColorSpaceName(view->getDisplay(), view->getView()),
-          direction);
+      shown(*view, direction);
       looks_in(config_->getDisplayViewLooks(view->getDisplay(), view->getView()));
     }
   }
 
  private:
   void way(const char* from, const char* to, OCIO::TransformDirection direction) {
+    ends(from, to, direction);
+    const auto a = config_->getColorSpace(from), b = config_->getColorSpace(to);
+    if (!a || !b || a->getReferenceSpaceType() == b->getReferenceSpaceType()) return;
+    // Between scene and display the config's default view transform stands.
+    view_transform(config_->getDefaultSceneToDisplayViewTransform());
+  }
+
+  void ends(const char* from, const char* to, OCIO::TransformDirection direction) {
     space(direction == forward ? from : to, OCIO::COLORSPACE_DIR_TO_REFERENCE);
     space(direction == forward ? to : from, OCIO::COLORSPACE_DIR_FROM_REFERENCE);
+  }
+
+  /// A view has a view transform of its own, or is a colour space.
+  void shown(const OCIO::DisplayViewTransform& view, OCIO::TransformDirection direction) {
+    const char* space = config_->getDisplayViewColorSpaceName(view.getDisplay(), view.getView());
+    if (space == std::string_view(OCIO::OCIO_VIEW_USE_DISPLAY_NAME)) space = view.getDisplay();
+    const char* const name = config_->getDisplayViewTransformName(view.getDisplay(), view.getView());
+    if (!name || !*name) return way(view.getSrc(), space, direction);
+    ends(view.getSrc(), space, direction);
+    view_transform(config_->getViewTransform(name));
   }
 
   /// A way that leads through itself would never end: OpenColorIO 2.1 runs out of stack on it.
@@ -79,16 +97,15 @@ class Walk {
       else
         transform(found->getTransform(other), inverse);
     });
-    if (found->getReferenceSpaceType() == OCIO::REFERENCE_SPACE_DISPLAY) view_transforms();
   }
 
-  void view_transforms() {
-    if (!done_.emplace("view transforms", true).second) return;
-    for (int i = 0; i < config_->getNumViewTransforms(); ++i) {
-      const auto view = config_->getViewTransform(config_->getViewTransformNameByIndex(i));
+  void view_transform(const OCIO::ConstViewTransformRcPtr& view) {
+    if (!view) return;
+    const std::string name = view->getName();
+    once(name, "view transform " + name, [&] {
       transform(view->getTransform(OCIO::VIEWTRANSFORM_DIR_TO_REFERENCE), forward);
       transform(view->getTransform(OCIO::VIEWTRANSFORM_DIR_FROM_REFERENCE), forward);
-    }
+    });
   }
 
   /// `list` is a formula of names; a look whose name merely occurs in it is looked at in vain.

@@ -75,6 +75,53 @@ TEST(ColourConfig, xyz_is_found_by_whichever_interchange_the_config_has) {
   EXPECT_EQ(ColourConfig::from_file(saved(config, "xyz.ocio")).working_gamut(), "rec709");
 }
 
+// As Blender 5 has it: scene_linear is defined through the display-referred XYZ, and a tone map through
+// scene_linear. Only the default view transform lies between the two references.
+TEST(ColourConfig, a_view_transform_may_lead_through_the_space_that_is_defined_by_another_one) {
+  const std::string file = ::testing::TempDir() + "/views.ocio";
+  const auto write = [&](const std::string& plain) {
+    std::ofstream(file) << R"(ocio_profile_version: 2
+roles: {scene_linear: Lin, default: Lin, aces_interchange: Ref, cie_xyz_d65_interchange: XYZ}
+file_rules:
+  - !<Rule> {name: Default, colorspace: default}
+displays:
+  Screen:
+    - !<View> {name: Toned, view_transform: Toned, display_colorspace: Screen}
+    - !<View> {name: Plain, view_transform: Plain, display_colorspace: Screen}
+default_view_transform: Plain
+view_transforms:
+  - !<ViewTransform>
+    name: Plain
+    from_scene_reference: )"
+                        << plain << R"(
+  - !<ViewTransform>
+    name: Toned
+    from_scene_reference: !<GroupTransform>
+      children:
+        - !<ColorSpaceTransform> {src: Ref, dst: Lin}
+        - !<ExponentTransform> {value: 1.2}
+        - !<ColorSpaceTransform> {src: Lin, dst: XYZ}
+display_colorspaces:
+  - !<ColorSpace> {name: XYZ}
+  - !<ColorSpace>
+    name: Screen
+    from_display_reference: !<ExponentTransform> {value: 2.2, direction: inverse}
+colorspaces:
+  - !<ColorSpace> {name: Ref}
+  - !<ColorSpace>
+    name: Lin
+    from_scene_reference: !<GroupTransform>
+      children:
+        - !<ColorSpaceTransform> {src: Ref, dst: XYZ}
+        - !<MatrixTransform> {matrix: [3.24, -1.54, -0.5, 0, -0.97, 1.88, 0.04, 0, 0.06, -0.2, 1.06, 0, 0, 0, 0, 1]}
+)";
+  };
+  write("!<MatrixTransform> {matrix: [0.94, 0, 0.01, 0, 0.34, 0.73, -0.07, 0, 0, 0, 1.09, 0, 0, 0, 0, 1]}");
+  EXPECT_NO_THROW((void)ColourConfig::from_file(file));
+  write("!<ColorSpaceTransform> {src: Ref, dst: XYZ}");  // this one does lead to itself
+  EXPECT_THROW((void)ColourConfig::from_file(file), Error);
+}
+
 TEST(ColourConfig, a_tone_map_on_the_way_to_the_display_is_not_taken_for_a_matrix) {
   const OCIO::ConfigRcPtr config = OCIO::Config::CreateRaw()->createEditableCopy();
   config->setMajorVersion(2);
