@@ -45,8 +45,12 @@ Pixels expected(const OCIO_NAMESPACE::ConstTransformRcPtr& transform);
 OCIO_NAMESPACE::TransformRcPtr look_transform(const std::string& look);
 OCIO_NAMESPACE::TransformRcPtr view_transform(const std::string& display, const std::string& view);
 
+/// Whether the programs run the release of OpenColorIO that this test is linked with.
+bool programs_have_this_ocio();
+
 /// Largest difference of RGB, relative to the pixel's largest component; infinite where alpha differs at all
-/// or sizes do. Prints it.
+/// or sizes do. Between two releases of OpenColorIO, whose logarithms and powers differ: to 0.05 at least,
+/// and where alpha differs by more than 2e-5 (2.6 takes it to the power 1). Prints it.
 double worst_difference(const std::string& what, const Pixels& got, const Pixels& wanted);
 
 inline const std::string linear = "Linear Rec.709 (sRGB)";

@@ -1,5 +1,6 @@
 // The shipped config in the programs that people load it into. A program that is not installed is skipped
-// with a notice; what it should give is what the OCIO library gives, 2e-6 apart at most on the CPU.
+// with a notice; what it should give is what the OCIO library gives, 2e-6 apart at most on the CPU where both
+// are of one release.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,8 +17,9 @@ namespace OCIO = OCIO_NAMESPACE;
 namespace scotopic::test {
 namespace {
 
-constexpr double cpu_tolerance = 2e-6;
-constexpr double gpu_tolerance = 1e-4;
+// Between releases: what 2.1 and 2.6 give in the dark, with the optimisations of each.
+const double cpu_tolerance = programs_have_this_ocio() ? 2e-6 : 2e-3;
+const double gpu_tolerance = programs_have_this_ocio() ? 1e-4 : 2e-3;
 
 std::string output(const std::string& name) { return work_folder() + "/" + name; }
 
@@ -181,7 +183,8 @@ TEST(Python, pyopencolorio_runs_look_and_view) {
   config()->getProcessor(look_transform(street))->getDefaultCPUProcessor()->applyRGB(rgb);
   float got[3] = {};
   ASSERT_EQ(std::sscanf(result.said.c_str(), "%f %f %f", &got[0], &got[1], &got[2]), 3) << result.said;
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[c], rgb[c], 1e-6 * static_cast<double>(std::abs(rgb[c])));
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(got[c], rgb[c], cpu_tolerance * static_cast<double>(std::abs(rgb[c])));
 }
 
 TEST(Python, openimageio_runs_the_look) {
