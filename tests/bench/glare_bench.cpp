@@ -126,6 +126,25 @@ double fft(int width, int height) {
 }
 #endif
 
+/// A row that has just been decoded goes into planes; with and without its greatest component being kept.
+double taking_rows(Planes& into, std::vector<float>* greatest) {
+  const auto row = static_cast<std::size_t>(into.width);
+  std::array<std::vector<float>, 3> decoded;
+  for (auto& plane : decoded) plane.assign(row, 0.25f);
+  return least(
+      5, [] {},
+      [&] {
+        for (int y = 0; y < into.height; ++y) {
+          for (std::size_t k = 0; k < 3; ++k)
+            std::memcpy(into.values[k].data() + static_cast<std::size_t>(y) * row, decoded[k].data(),
+                        4 * row);
+          if (greatest != nullptr)
+            (*greatest)[static_cast<std::size_t>(y)] =
+                greatest_component({decoded[0].data(), decoded[1].data(), decoded[2].data()}, into.width);
+        }
+      });
+}
+
 void size(int width, int height, int times) {
   const double pixels = static_cast<double>(width) * height;
   std::printf("%d x %d, 40 degrees, three planes\n", width, height);
@@ -151,6 +170,15 @@ void size(int width, int height, int times) {
               times, [&] { work = scene; }, [&] { filter.need(work.view(), luminance); }),
           pixels, copying);
   }
+  std::vector<float> greatest(static_cast<std::size_t>(height));
+  const double without = taking_rows(work, nullptr), with = taking_rows(work, &greatest);
+  print("rows' greatest kept while decoding", std::max(0.0, with - without), pixels, copying);
+  GlarePicture known = work.view();
+  known.greatest = greatest.data();
+  print("  asked whether called for, known",
+        least(
+            times, [] {}, [&] { filter.need(known, luminance); }),
+        pixels, copying);
 #ifdef SCOTOPIC_BENCH_FFTW
   if (pixels < 1e7) print("padded FFT (FFTW, float, estimate)", fft(width, height), pixels, copying);
 #endif

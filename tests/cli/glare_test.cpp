@@ -75,6 +75,27 @@ TEST_F(Glare, a_lamp_lights_what_is_around_it_and_less_farther_away) {
   EXPECT_NEAR(veil / 1e5f, 3.768e-5f, 0.03f * 3.768e-5f);
 }
 
+TEST_F(Glare, halo_is_a_ring_around_the_lamp_at_night_and_none_by_day) {
+  const std::string in = scene("lamp.exr", 1e5f);
+  const auto run = [&](const char* adaptation, const char* halo) {
+    report(apply(in, "on.exr",
+                 {"--adaptation", adaptation, "--ppd", "20", "--glare", "above:10", "--effects", "glare",
+                  "--glare-halo", halo}));
+    return pixels("on.exr");
+  };
+  const std::vector<float> none = run("0.1", "0"), half = run("0.1", "0.5"), ring = run("0.1", "1");
+  const auto veil = [](const std::vector<float>& of, int x, std::size_t c) {
+    return of[3 * static_cast<std::size_t>(48 * 129 + 64 + x) + c] - 0.1f;
+  };
+  // 2.9 degrees are 58 pixels: there the ring of 550 nm is an order above all else.
+  EXPECT_GT(veil(ring, 58, 1), 8 * veil(none, 58, 1));
+  EXPECT_NEAR(veil(half, 58, 1), (veil(none, 58, 1) + veil(ring, 58, 1)) / 2, 0.01f * veil(ring, 58, 1));
+  EXPECT_GT(veil(ring, 49, 2), 2 * veil(ring, 49, 0));  // blue inside,
+  EXPECT_GT(veil(ring, 63, 0), 2 * veil(ring, 63, 2));  // red outside
+  EXPECT_EQ(run("100", "0"), run("100", "1"));
+  EXPECT_EQ(apply(in, "a.exr", with({"--glare-halo", "1.5"})).exit_code, 2);
+}
+
 TEST_F(Glare, without_light_over_the_display_s_peak_nothing_changes) {
   const std::string in = scene("dim.exr", 0.5f);
   const nlohmann::json said = report(apply(in, "on.exr", with({"--effects", "glare"})));

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "io/pixels/row_bands.h"
 #include "pipeline/rows/threads.h"
+#include "stages/glare/filter.h"
 
 namespace scotopic {
 namespace {
@@ -36,6 +37,7 @@ LightPlanes::LightPlanes(const Subimage& subimage, bool receptors, const Moment&
       corner_(corner_of(subimage, moment)) {
   const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   for (std::size_t k = 0; k < (receptors_ ? 7u : 3u); ++k) planes_[k].resize(pixels);
+  greatest_.resize(static_cast<std::size_t>(height_));
 }
 
 std::int64_t LightPlanes::bytes(const Subimage& subimage, bool receptors) {
@@ -50,6 +52,8 @@ std::size_t LightPlanes::at(int y, int x) const {
 void LightPlanes::set_row(int y, const LightRow& light) {
   for (std::size_t k = 0; k < (receptors_ ? 7u : 3u); ++k)
     std::copy(plane(light, k)->begin(), plane(light, k)->end(), planes_[k].data() + at(y, 0));
+  greatest_[static_cast<std::size_t>(y)] =
+      greatest_component({light.r.data(), light.g.data(), light.b.data()}, width_);
 }
 
 void LightPlanes::replace(int y, int x, LightRow& light) const {
@@ -76,6 +80,7 @@ FramePlanes LightPlanes::planes() {
   out.height = height_;
   out.stride = width_;
   out.corner = corner_;
+  out.greatest = greatest_.empty() ? nullptr : greatest_.data();
   return out;
 }
 

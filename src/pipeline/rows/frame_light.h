@@ -30,6 +30,8 @@ class LightPlanes {
   void get(int y, LightRow& light) const;
   /// For a stage to work on.
   FramePlanes planes();
+  /// Said by whoever has changed them.
+  void changed() { greatest_.clear(); }
 
  private:
   std::size_t at(int y, int x) const;
@@ -38,6 +40,7 @@ class LightPlanes {
   bool receptors_;
   RowContext corner_;
   std::vector<float> planes_[7];
+  std::vector<float> greatest_;  ///< component of each row, as long as nobody has changed any
 };
 
 /// Those of an image, one for each of layout.light; null for smaller resolutions, and where no stage has

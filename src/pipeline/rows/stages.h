@@ -71,6 +71,8 @@ struct FramePlanes {
   int height = 0;
   std::ptrdiff_t stride = 0;  ///< floats from row to row
   RowContext corner;          ///< of the first pixel
+  /// Of each row, at least its greatest finite component of RGB; null where it is not known.
+  const float* greatest = nullptr;
 
   /// Planes that are there: 3 or 7.
   int count() const noexcept { return receptors[0] ? 7 : 3; }

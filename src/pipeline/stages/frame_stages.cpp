@@ -64,6 +64,7 @@ void FramesOfImage::run(const FrameStage& stage, EffectDecision& decision) {
     decision.number += outcome.number;
     decision.reason = outcome.reason;
     decision.needed = decision.needed || outcome.ran;
+    if (outcome.ran) lights_.subimages[i]->changed();
     changed_[i] = changed_[i] || outcome.ran;
   }
   decision.share = decision.needed ? 1 : 0;

@@ -6,11 +6,13 @@
 #include <stdexcept>
 #include <vector>
 
+#include "adaptation/pupil.h"
 #include "base/error.h"
 #include "pipeline/stages/display_stages.h"
 #include "pipeline/stages/stages.h"
 #include "stages/glare/description.h"
 #include "stages/glare/filter.h"
+#include "stages/glare/halo.h"
 
 namespace scotopic {
 namespace {
@@ -37,7 +39,8 @@ class GlareStage : public FrameStage {
   double strength(const StageScene& scene) const {
     return values_.number("strength-glare") * scene.parameters.strength.all;
   }
-  GlareEye eye() const { return {values_.number("age"), values_.number("pigmentation")}; }
+  GlareEye eye() const { return {values_.number("age"), values_.number("pigmentation"), 0}; }
+  double halo(const StageScene& scene) const;
   double threshold(const StageScene& scene) const;
   GlareFilter filter(int width, int height, double threshold, const StageScene& scene) const;
 
@@ -65,9 +68,15 @@ double GlareStage::threshold(const StageScene& scene) const {
   return 1 / display_scale(shown);
 }
 
+// Wide pupils alone show it.
+double GlareStage::halo(const StageScene& scene) const {
+  return values_.number("glare-halo") * halo_share(pupil_diameter_mm(scene.parameters.adaptation));
+}
+
 GlareFilter GlareStage::filter(int width, int height, double threshold, const StageScene& scene) const {
   GlareParameters p;
   p.eye = eye();
+  p.eye.halo = halo(scene);
   p.rule = rule_;
   p.threshold = threshold;
   p.grid.width = width;
@@ -84,7 +93,9 @@ GlareFilter GlareStage::filter(int width, int height, double threshold, const St
 }
 
 std::int64_t GlareStage::bytes(const FrameSize& size, const StageScene& scene) const {
-  const GlareFilter any = filter(size.width, size.height, 1, scene);  // its memory depends on no threshold
+  StageScene dark = scene;  // a wide pupil, whose halo takes memory
+  dark.parameters.adaptation = 0;
+  const GlareFilter any = filter(size.width, size.height, 1, dark);  // its memory depends on no threshold
   const std::int64_t measured = measure_ ? std::int64_t{8} * size.width * size.height : 0;  // see veil_text()
   return measured + static_cast<std::int64_t>(any.bytes(size.planes, size.threads));
 }
@@ -128,6 +139,7 @@ FrameOutcome GlareStage::run(const FramePlanes& light, const StageScene& scene,
   if (light.receptors[0])
     picture.light.insert(picture.light.end(), light.receptors.begin(), light.receptors.end());
   picture.stride = light.stride;
+  picture.greatest = light.greatest;
   const double t = threshold(scene), shown = t * scene.parameters.white_luminance;
   const GlareFilter glare = filter(light.width, light.height, t, scene);
   const Vec3<double>& y = scene.parameters.xyz_from_rgb[1];
@@ -150,6 +162,7 @@ std::vector<Attribute> GlareStage::stamps(const StageScene& scene) const {
   return {{"scotopic:glareThreshold", rule_ == GlareRule::all ? 0.0 : threshold(scene)},
           {"scotopic:glareAge", values_.number("age")},
           {"scotopic:glarePigmentation", values_.number("pigmentation")},
+          {"scotopic:glareHalo", values_.number("glare-halo")},
           {"scotopic:glareStrength", values_.number("strength-glare")},
           {"scotopic:glarePixelsPerDegree", scene.resolution.pixels_per_degree}};
 }

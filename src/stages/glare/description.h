@@ -15,6 +15,9 @@ inline constexpr StageParameter glare_parameters[] = {
      "Light from here on scatters (default 0: what the display cannot show)"},
     {"age", "years", 0, 100, 28.58, "Of the eye (default 28.58)"},
     {"pigmentation", "", 0, 1.2, 0.5, "Of the eye: 0 black, 0.5 brown (default), 1 blue, 1.2 very light"},
+    {"glare-halo", "", 0, 1, 0,
+     "Ring of 3 degrees around lamps, of the lens's fibres, at pupils above 3 mm: 0 none (default), 1 the "
+     "strongest that is seen"},
     strength_of("strength-glare", "Of the scattered light, 0 to 1")};
 inline constexpr StageDescription glare_description = {
     "glare",

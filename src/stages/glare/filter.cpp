@@ -17,6 +17,10 @@ const GlareParameters& checked(const GlareParameters& p) {
 
 }  // namespace
 
+float greatest_component(const std::array<const float*, 3>& rgb, int width) {
+  return glare::greatest_of_row(rgb, width);
+}
+
 GlareFilter::GlareFilter(const GlareParameters& parameters)
     : plan_(std::make_unique<const glare::Plan>(checked(parameters))) {}
 GlareFilter::~GlareFilter() = default;

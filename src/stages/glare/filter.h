@@ -39,7 +39,15 @@ struct GlarePicture {
   /// Planes that scatter, 1 to 7, each by the share that rgb decides: R, G, B; or L, M, S and rods.
   std::vector<float*> light;
   std::ptrdiff_t stride = 0;
+  /// Of each row its greatest_component, where known: rows without light above the threshold are not read
+  /// again.
+  const float* greatest = nullptr;
 };
+
+/// At least the greatest component of the finite pixels of a row, and at least 0. Cheap while the row is in
+/// the processor's cache: 0.1 ns a pixel, where reading the picture again for it takes as long as memory
+/// does.
+float greatest_component(const std::array<const float*, 3>& rgb, int width);
 
 /// Whether a picture calls for glare at all.
 struct GlareNeed {

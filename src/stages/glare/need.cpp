@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "stages/glare/filter.h"
+#include "stages/glare/halo.h"
 #include "stages/glare/plan.h"
 
 namespace scotopic {
@@ -81,6 +82,7 @@ void Blocks::visit(int x, int y, Visit visit) const {
 
 bool Blocks::lit(int x, int y) const {
   for (int j = y * side; j < std::min((y + 1) * side, plan_.height()); ++j) {
+    if (known_below(plan_, picture_, j)) continue;
     PictureRow row = row_of(picture_, j);
     for (const float*& plane : row.rgb) plane += x * side;
     if (count_above(row, plan_.threshold, std::min(side, plan_.width() - x * side)) > 0) return true;
@@ -160,6 +162,14 @@ double pixel_weight(const Plan& plan, double dx, double dy) {
 /// Distance of the nearest pixels' middles, of blocks so many apart.
 double pixels_apart(int blocks) { return blocks == 0 ? 0 : side * (blocks - 1) + 1; }
 
+/// At most what the halo sends `theta` degrees or farther.
+double halo_bound(const GlareFunction& function, const GlareGrid& grid, double theta) {
+  const auto [low, high] = std::minmax_element(halo_wavelengths.begin(), halo_wavelengths.end());
+  // Drawn wider where pixels are few, and never higher.
+  const double across = 6 * std::hypot(halo_sigma, 2 / std::min(grid.ppd_x, grid.ppd_y));
+  return theta > halo_radius(*high) + across ? 0 : function.halo() * halo_psf(halo_radius(*low), *low);
+}
+
 Bound::Bound(const Plan& plan, const Blocks& blocks)
     : columns_(blocks.columns), meet_(plan.parameters.grid.sides == GlareSides::meet) {
   const GlareGrid& g = plan.parameters.grid;
@@ -171,7 +181,8 @@ Bound::Bound(const Plan& plan, const Blocks& blocks)
     for (int x = 0; x < blocks.columns; ++x) {
       // Decreasing with the angle, so the nearest points bound the rest.
       const double theta = std::hypot(pixels_apart(x) / g.ppd_x, pixels_apart(y) / g.ppd_y) - half_pixel;
-      table_.push_back(scale * (x < 2 && y < 2 ? nearest : plan.function.psf(std::min(theta, 90.0))));
+      const double near = x < 2 && y < 2 ? nearest : plan.function.psf(std::min(theta, 90.0));
+      table_.push_back(scale * (near + halo_bound(plan.function, g, theta)));
     }
 }
 

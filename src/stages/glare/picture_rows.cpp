@@ -71,6 +71,21 @@ std::ptrdiff_t CountAbove(const PictureRow& row, float threshold, int width) {
   return static_cast<std::ptrdiff_t>(count);
 }
 
+float GreatestOfRow(const std::array<const float*, 3>& rgb, int width) {
+  const D d;
+  V most[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+  // NaN and what is too large count as 0, each for itself: the bound of a row may come from a pixel that is
+  // not finite.
+  const auto look = [&](int x, int some) HWY_ATTR {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const V v = load_some(rgb[k] + x, some);
+      most[k] = hn::Max(most[k], hn::IfThenElseZero(hn::Le(v, hn::Set(d, 0x1p120f)), v));
+    }
+  };
+  for (int x = 0; x < width; x += lanes()) look(x, width - x);
+  return hn::GetLane(hn::MaxOfLanes(d, hn::Max(most[0], hn::Max(most[1], most[2]))));
+}
+
 bool ExcessRow(const Excess& excess, const PictureRow& row, float* const* out, std::uint8_t* lit, int width) {
   const D d;
   const V t = hn::Set(d, excess.threshold), zero = hn::Zero(d);
@@ -126,10 +141,12 @@ void ScatterRow(const Excess& excess, const PictureRow& row, const float* const*
   for (int x = 0; x < width; x += lanes()) {
     const int some = width - x;
     const Mask fine = hn::Ne(hn::LoadU(d, e[planes] + x), zero);
-    const V stays = hn::Sub(one, hn::LoadU(d, ke[planes] + x));
+    const V stays_of_all = hn::Sub(one, hn::LoadU(d, ke[planes] + x));
     for (std::size_t k = 0; k < planes; ++k) {
       const V p = load_some(row.light[k] + x, some), own = hn::LoadU(d, e[k] + x),
               come = hn::LoadU(d, ke[k] + x);
+      const float* const ring = ke[planes + 1 + k];
+      const V stays = ring == nullptr ? stays_of_all : hn::Sub(stays_of_all, hn::LoadU(d, ring + x));
       const Mask touched = hn::And(fine, hn::Or(hn::Ne(own, zero), hn::Ne(come, zero)));
       const V out = hn::Add(hn::Add(hn::Sub(p, own), hn::Mul(own, stays)), come);
       store_some(hn::IfThenElse(touched, out, p), row.light[k] + x, some);
@@ -143,12 +160,16 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace scotopic::glare {
 HWY_EXPORT(CountAbove);
+HWY_EXPORT(GreatestOfRow);
 HWY_EXPORT(ExcessRow);
 HWY_EXPORT(ExtremesOfRow);
 HWY_EXPORT(ScatterRow);
 
 std::ptrdiff_t count_above(const PictureRow& row, float threshold, int width) {
   return HWY_DYNAMIC_DISPATCH(CountAbove)(row, threshold, width);
+}
+float greatest_of_row(const std::array<const float*, 3>& rgb, int width) {
+  return HWY_DYNAMIC_DISPATCH(GreatestOfRow)(rgb, width);
 }
 bool excess_row(const Excess& excess, const PictureRow& row, float* const* out, std::uint8_t* lit,
                 int width) {

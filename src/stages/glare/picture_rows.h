@@ -29,6 +29,9 @@ struct PictureRow {
 /// How many pixels are finite and have v > threshold. Pixels beyond 2^120 count as not finite, everywhere
 /// here.
 std::ptrdiff_t count_above(const PictureRow& row, float threshold, int width);
+/// At least the greatest component of every finite pixel of a row, and 0: nothing of it is above a threshold
+/// that this is not above.
+float greatest_of_row(const std::array<const float*, 3>& rgb, int width);
 /// Samples of a row are lit, or not, so many at a time.
 inline constexpr int lit_step = 64;
 /// out[k] = excess of plane k, 0 where not finite; out[planes] = 1 where finite, else 0. Samples 0 ... width
@@ -39,7 +42,8 @@ bool excess_row(const Excess& excess, const PictureRow& row, float* const* out, 
 /// negative.
 std::pair<float, float> extremes_of_row(const float* row, const float* mask, int width);
 /// light = (p - e) + e (1 - km) + ke, or p as it is where e and ke are both 0 or the pixel is not finite.
-/// e[planes] is the mask, ke[planes] the blurred mask km.
+/// e[planes] is the mask, ke[planes] the blurred mask km; with a halo km is ke[planes] + ke[planes + 1 + k]
+/// of plane k, else those are null.
 void scatter_row(const Excess& excess, const PictureRow& row, const float* const* e, const float* const* ke,
                  int width);
 

@@ -80,7 +80,9 @@ std::ptrdiff_t count_above(const Plan& plan, const GlarePicture& picture, const 
   std::vector<std::ptrdiff_t> counts(static_cast<std::size_t>(tasks_of(plan.height())));
   for_bands(plan.height(), rows_of_task, parallel_for, [&](int task, int begin, int end) {
     for (int y = begin; y < end; ++y)
-      counts[static_cast<std::size_t>(task)] += count_above(row_of(picture, y), plan.threshold, plan.width());
+      if (!known_below(plan, picture, y))
+        counts[static_cast<std::size_t>(task)] +=
+            count_above(row_of(picture, y), plan.threshold, plan.width());
   });
   return std::accumulate(counts.begin(), counts.end(), std::ptrdiff_t{0});
 }

@@ -39,6 +39,11 @@ inline PictureRow row_of(const GlarePicture& picture, int y) {
   return out;
 }
 
+/// Whether the picture knows that no pixel of row y is above the threshold.
+inline bool known_below(const Plan& plan, const GlarePicture& picture, int y) {
+  return picture.greatest != nullptr && picture.greatest[y] <= plan.threshold;
+}
+
 /// Finite pixels with v > threshold.
 std::ptrdiff_t count_above(const Plan& plan, const GlarePicture& picture, const ParallelFor& parallel_for);
 

@@ -50,12 +50,15 @@ bool within(double x, double low, double high) { return x >= low && x <= high; }
 GlareFunction::GlareFunction(const GlareEye& eye) {
   if (!within(eye.age, 0, 100)) throw std::invalid_argument("glare: age must be 0 to 100 years");
   if (!within(eye.pigmentation, 0, 1.2)) throw std::invalid_argument("glare: pigmentation must be 0 to 1.2");
+  if (!(eye.halo >= 0 && eye.halo < 1)) throw std::invalid_argument("glare: the halo must be 0 to below 1");
   const double aged = fourth_power(eye.age / 70);
   core_ = 1 - 0.08 * aged;
   veil_ = 1 + 1.6 * aged;
   pigmentation_ = eye.pigmentation;
-  normalisation_ = core_ * core_integral + veil_ * (veil_integral + pigmentation_ * pigment_integral) +
-                   pigmentation_ * wall_integral;
+  halo_ = eye.halo;
+  normalisation_ = (core_ * core_integral + veil_ * (veil_integral + pigmentation_ * pigment_integral) +
+                    pigmentation_ * wall_integral) /
+                   (1 - halo_);
 }
 
 double GlareFunction::psf(double theta) const noexcept {

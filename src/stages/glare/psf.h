@@ -7,9 +7,11 @@ namespace scotopic {
 struct GlareEye {
   double age = 28.58;         ///< years, 0 ... 100; measured on eyes of 20 ... 80
   double pigmentation = 0.5;  ///< 0 black, 0.5 brown, 1 blue, 1.2 very light; 0 ... 1.2
+  double halo = 0;            ///< share of the light that the lens spreads in a ring, 0 ... below 1 (halo.h)
 };
 
 /// The function over its integral over the hemisphere: one lux at the eye gives a veil of psf(theta) cd/m2.
+/// All but the lens's halo, whose share is missing here.
 /// Achromatic and independent of the pupil: past 0.1 degrees IJspeert's measured tail changes by 5 % from 3
 /// to 7 mm.
 class GlareFunction {
@@ -20,8 +22,11 @@ class GlareFunction {
   /// 1/sr at `theta` degrees from the source, 0 ... 90: finite at 0, decreasing.
   double psf(double theta) const noexcept;
 
-  /// What the function is divided by: its integral over the 2 pi sr of the hemisphere.
+  /// What the function is divided by: its integral over the 2 pi sr of the hemisphere, over what is no halo.
   double normalisation() const noexcept { return normalisation_; }
+
+  /// Share of the light in the lens's halo.
+  double halo() const noexcept { return halo_; }
 
   /// The function as a sum of Gaussians whose sigmas are octaves apart,
   ///   psf(theta) ~ sum_j rung(sigma_0 2^j) exp(-theta^2 / 2 (sigma_0 2^j)^2) + wide(theta),
@@ -38,6 +43,7 @@ class GlareFunction {
   double core_;  ///< 1 - 0.08 (age/70)^4: what clouding takes from the peak
   double veil_;  ///< 1 + 1.6 (age/70)^4: what it adds around
   double pigmentation_;
+  double halo_;
   double normalisation_;
 };
 

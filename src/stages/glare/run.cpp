@@ -41,7 +41,7 @@ struct Run::Window {
         ring(run.level().width, static_cast<std::ptrdiff_t>(size) * run.planes()),
         ring_lit(static_cast<std::size_t>(size) * steps),
         lit(steps),
-        blurred(run.level().width, run.planes()),
+        blurred(run.level().width, run.planes() + run.rings()),
         scratch(run.level().width) {}
   float* row(int plane, int y) { return ring.row(static_cast<std::ptrdiff_t>(plane) * size + y % size); }
   const float* row(int plane, int y) const {
@@ -75,7 +75,8 @@ Run::Run(const Plan& plan, const GlarePicture& picture, const Excess& excess)
 std::size_t Run::bytes(const Plan& plan, int light, int threads) {
   const int planes = light + 1, reach = plan.ladder.levels.front().reach();
   const auto own = static_cast<std::size_t>(threads) *
-                   static_cast<std::size_t>((ring_size(reach) + 1) * planes + most_rungs + 1);
+                   static_cast<std::size_t>((ring_size(reach) + 1) * planes +
+                                            Pyramid::rings(plan.ladder, planes) + most_rungs + 1);
   const auto rows = own + static_cast<std::size_t>(rows_kept(plan.ladder, planes)) + most_rungs + 1;
   return Pyramid::bytes(plan.ladder, planes) +
          rows * static_cast<std::size_t>(row_floats(plan.width())) * sizeof(float);
@@ -212,11 +213,12 @@ void Run::scatter_band(int begin, int end) {
       blur_mask_of_ones(window, y);
     else
       blur_row(window, mask(), y, true);
-    std::array<const float*, most_planes> own{}, come{};
-    for (int p = 0; p < planes(); ++p) {
-      own[static_cast<std::size_t>(p)] = window.row(p, y);
-      come[static_cast<std::size_t>(p)] = window.blurred.row(p);
-    }
+    for (int r = planes(); r < planes() + rings(); ++r)
+      pyramid_.coarse_row(r, y, window.scratch, window.blurred.row(r));
+    std::array<const float*, most_planes> own{};
+    std::array<const float*, most_planes + most_light> come{};
+    for (int p = 0; p < planes(); ++p) own[static_cast<std::size_t>(p)] = window.row(p, y);
+    for (int p = 0; p < planes() + rings(); ++p) come[static_cast<std::size_t>(p)] = window.blurred.row(p);
     scatter_row(excess_, row_of(picture_, y), own.data(), come.data(), level().width);
   }
 }

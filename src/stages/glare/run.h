@@ -41,6 +41,7 @@ class Run {
   int steps() const { return (plan_.width() + lit_step - 1) / lit_step; }
   int mask() const { return excess_.planes; }
   int planes() const { return excess_.planes + 1; }
+  int rings() const { return Pyramid::rings(plan_.ladder, planes()); }
   const Level& level() const { return plan_.ladder.levels.front(); }
 
   const Plan& plan_;

@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "stages/glare/judge.h"
 
@@ -21,8 +23,8 @@ double luminance(const Picture& p, std::size_t i) {
          weights[2] * double{p.planes[2].values[i]};
 }
 
-GlareParameters parameters(int width, int height, double ppd) {
-  return {{}, test::square_grid(width, height, ppd), GlareRule::above, 1};
+GlareParameters parameters(int width, int height, double ppd, double halo = 0) {
+  return {{28.58, 0.5, halo}, test::square_grid(width, height, ppd), GlareRule::above, 1};
 }
 
 Picture scene(std::mt19937& random, int width, int height, double ground, double decades) {
@@ -39,7 +41,7 @@ Picture scene(std::mt19937& random, int width, int height, double ground, double
   return out;
 }
 
-TEST(GlareNeed, bounds_the_rise_of_every_pixel_on_200_scenes) {
+void bounds_the_rise_of_every_pixel_on_200_scenes(double halo) {
   std::mt19937 random(4);
   int skipped = 0, above = 0;
   double nearest = 0, largest = 0;
@@ -48,7 +50,7 @@ TEST(GlareNeed, bounds_the_rise_of_every_pixel_on_200_scenes) {
     const double ppd = 3 + static_cast<double>(random() % 60);
     const Picture in = scene(random, width, height, n % 2 == 0 ? 0.9 : 0.05, n % 3 == 0 ? 5 : 3);
     Picture out = in;
-    const GlareFilter filter(parameters(width, height, ppd));
+    const GlareFilter filter(parameters(width, height, ppd, halo));
     const GlareNeed need = filter.need(out.view(), weights);
     filter.apply(out.view());
     above += need.above > 0;
@@ -83,6 +85,11 @@ TEST(GlareNeed, bounds_the_rise_of_every_pixel_on_200_scenes) {
   EXPECT_LE(largest, 0.01);
 }
 
+TEST(GlareNeed, bounds_the_rise_of_every_pixel_on_200_scenes) {
+  bounds_the_rise_of_every_pixel_on_200_scenes(0);
+}
+TEST(GlareNeed, bounds_it_with_a_halo_too) { bounds_the_rise_of_every_pixel_on_200_scenes(0.033); }
+
 TEST(GlareNeed, says_how_many_pixels_and_why) {
   Picture picture(100, 80, 0.5f);
   const GlareFilter filter(parameters(100, 80, 20));
@@ -94,6 +101,39 @@ TEST(GlareNeed, says_how_many_pixels_and_why) {
   EXPECT_TRUE(need.called_for);
   EXPECT_EQ(need.above, 7);
   EXPECT_GT(need.veil, 0.01);
+}
+
+TEST(GlareNeed, is_the_same_where_the_rows_greatest_components_are_known) {
+  std::mt19937 random(8);
+  for (int n = 0; n < 40; ++n) {
+    Picture picture = scene(random, 93, 70, n % 2 == 0 ? 0.9 : 0.05, 4);
+    if (n % 3 == 0) picture.planes[1](40, 30) = std::nanf("");
+    if (n % 5 == 0) picture.planes[2](50, 31) = std::numeric_limits<float>::infinity();
+    const GlareFilter filter(parameters(93, 70, 20));
+    GlarePicture view = picture.view();
+    const GlareNeed read = filter.need(view, weights);
+    std::vector<float> greatest;
+    for (std::ptrdiff_t y = 0; y < 70; ++y)
+      greatest.push_back(
+          greatest_component({view.rgb[0] + 93 * y, view.rgb[1] + 93 * y, view.rgb[2] + 93 * y}, 93));
+    view.greatest = greatest.data();
+    const GlareNeed known = filter.need(view, weights);
+    EXPECT_EQ(read.called_for, known.called_for) << n;
+    EXPECT_EQ(read.above, known.above) << n;
+    EXPECT_EQ(read.veil, known.veil) << n;
+  }
+}
+
+TEST(GlareNeed, a_row_s_greatest_component_is_that_of_its_finite_pixels) {
+  for (int width = 1; width < 70; ++width)
+    for (int at = 0; at < width; ++at) {
+      std::vector<float> r(static_cast<std::size_t>(width), -1.0f), g = r, b = r;
+      EXPECT_EQ(greatest_component({r.data(), g.data(), b.data()}, width), 0);
+      g[static_cast<std::size_t>(at)] = 3;
+      b[static_cast<std::size_t>((at + 1) % width)] = std::numeric_limits<float>::infinity();
+      r[static_cast<std::size_t>((at + 2) % width)] = std::nanf("");
+      EXPECT_EQ(greatest_component({r.data(), g.data(), b.data()}, width), 3) << width << " " << at;
+    }
 }
 
 TEST(GlareNeed, all_is_called_for_unless_the_picture_is_nearly_flat) {

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "stages/glare/pyramid/taps.h"
+
 namespace scotopic::glare {
 namespace {
 
@@ -23,11 +25,6 @@ constexpr int last_side_of_panorama = 64;
 constexpr int most_side_of_panorama = 128;
 // Octaves of the direct sum: the widest Gaussian is flat over any picture.
 constexpr int octaves_above = 24;
-
-double squared(double x) { return x * x; }
-
-// Squared sigma, in pixels, of j halvings by [1 4 6 4 1]/16 and as many doublings by its transpose.
-double blur_of_level(int j) { return 2.0 / 3.0 * (std::ldexp(1.0, 2 * j) - 1); }
 
 struct Builder {
   const GlareFunction& function;
@@ -47,31 +44,12 @@ struct Builder {
   float direct(int level, int dx, int dy) const;
 };
 
-int reach_of(double s) { return static_cast<int>(std::ceil(4 * s)); }
-
 std::vector<double> box_taps(double s) {
   std::vector<double> taps;
   const double scale = std::sqrt(0.5) / s;
   for (int i = 0; i <= reach_of(s); ++i)
     taps.push_back(0.5 * (std::erf((i + 0.5) * scale) - std::erf((i - 0.5) * scale)));
   return taps;
-}
-
-std::vector<double> sampled_taps(double s) {
-  std::vector<double> taps;
-  double sum = 0;
-  for (int i = 0; i <= reach_of(s); ++i) {
-    taps.push_back(std::exp(-i * i / (2 * s * s)));
-    sum += (i == 0 ? 1 : 2) * taps.back();
-  }
-  for (double& tap : taps) tap /= sum;
-  return taps;
-}
-
-HalfTaps scaled(const std::vector<double>& taps, double by) {
-  HalfTaps out;
-  for (const double tap : taps) out.push_back(static_cast<float>(tap * by));
-  return out;
 }
 
 Rung Builder::box(int octave) const {
@@ -139,6 +117,9 @@ Ladder::Ladder(const GlareFunction& function, const GlareGrid& grid) : sides(gri
   for (int j = 0; j >= finest; --j) levels[0].rungs.push_back(build.box(j));
   for (int j = 1; j < last; ++j) levels[static_cast<std::size_t>(j)].rungs.push_back(build.sampled(j));
   for (int j = finest; j < last; ++j) most += build.energy(j);
+
+  halo = halo_of(function, grid, levels);
+  most += grid.strength * function.halo();
 
   const Level& end = levels.back();
   top_width = end.x_end - end.x_begin;

@@ -44,6 +44,30 @@ struct Level {
   int reach() const { return static_cast<int>(rungs.front().y.size()) - 1; }
 };
 
+/// Neighbours in a row of a ring, `dy` rows below and from `dx` samples to the right on.
+struct Arc {
+  int dy, dx;
+  std::vector<float> weights;
+};
+
+/// A ring one sample thin, row by row downwards.
+struct Ring {
+  std::vector<Arc> arcs;
+};
+
+/// The lens's halo: what of a level is blurred by `spread`, and sent to a ring for each plane of light.
+struct Halo {
+  int level = 0;  ///< 0: there is none
+  int reach = 0;  ///< of the widest ring along a row
+  int wide = 0;   ///< reach of `spread`
+  Rung spread;
+  std::vector<Ring> rings;
+};
+
+/// For a function with a halo, of a picture whose levels are made. Each ring's weights sum to the halo's
+/// share.
+Halo halo_of(const GlareFunction& function, const GlareGrid& grid, const std::vector<Level>& levels);
+
 /// Levels 0 ... L-1 add their rungs; of the last, L, every pair of samples is summed directly.
 struct Ladder {
   /// Throws std::invalid_argument for a grid outside its domain, or a panorama whose width will not halve.
@@ -54,6 +78,7 @@ struct Ladder {
   /// Weight in the last level of a sample (dx, dy) away: top[dy * top_width + dx].
   std::vector<float> top;
   int top_width;
+  Halo halo;
   /// Sum of all weights over an endless plane, at most: how much light can leave a pixel.
   double most;
 };

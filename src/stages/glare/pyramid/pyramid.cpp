@@ -19,8 +19,8 @@ void for_rows(int begin, int end, const ParallelFor& parallel_for, Make make, Ta
 }
 
 /// The last rows of level 0 of every plane, by row modulo 8: halving looks at five.
-struct Ring {
-  Ring(const Level& picture, int plane_count)
+struct LastRows {
+  LastRows(const Level& picture, int plane_count)
       : planes(plane_count), rows(picture.width, 8 * plane_count + 1) {}
   float* row(int plane, int y) { return rows.row(1 + plane * 8 + (y & 7)); }
   const float* zeros() { return rows.row(0); }
@@ -29,7 +29,7 @@ struct Ring {
   int next = -1;  ///< the first row not yet here
 };
 
-void fill(Ring& ring, const Level& picture, const Pyramid::RowSource& source, int from, int to) {
+void fill(LastRows& ring, const Level& picture, const Pyramid::RowSource& source, int from, int to) {
   for (int y = std::max({from, ring.next, 0}); y <= std::min(to, picture.height - 1); ++y) {
     std::array<float*, most_planes> rows{};
     for (int p = 0; p < ring.planes; ++p) rows[static_cast<std::size_t>(p)] = ring.row(p, y);
@@ -80,21 +80,27 @@ void add_rungs(const Level& level, const float* const* rows, int begin, int end,
 }
 
 Pyramid::Pyramid(const Ladder& ladder, int planes) : ladder_(ladder), planes_(planes) {
+  const int of_halo = ladder.halo.level;
   for (int j = 1; j <= last(); ++j) {
     sharp_.emplace_back(level(j), planes);
-    blurred_.emplace_back(level(j), planes);
+    blurred_.emplace_back(level(j), planes + (j <= of_halo ? rings() : 0));
   }
+  if (rings() > 0) halo_.emplace(level(of_halo), ladder.halo, planes);
 }
 
 std::size_t Pyramid::bytes(const Ladder& ladder, int planes) {
   std::size_t sum = 0;
   for (std::size_t j = 1; j < ladder.levels.size(); ++j) sum += 2 * Planes::bytes(ladder.levels[j], planes);
-  return sum;
+  if (rings(ladder, planes) == 0) return sum;
+  const auto of_halo = static_cast<std::size_t>(ladder.halo.level);
+  for (std::size_t j = 1; j <= of_halo; ++j) sum += Planes::bytes(ladder.levels[j], rings(ladder, planes));
+  return sum + RingPlanes::bytes(ladder.levels[of_halo], ladder.halo, planes);
 }
 
 void Pyramid::build(const RowSource& source, const ParallelFor& parallel_for) {
   halve_picture(source, parallel_for);
   for (int j = 2; j <= last(); ++j) halve_level(j, parallel_for);
+  if (halo_) spread_halo(parallel_for);
   sum_top(parallel_for);
   for (int j = last() - 1; j >= 1; --j) blur_level(j, parallel_for);
 }
@@ -102,10 +108,10 @@ void Pyramid::build(const RowSource& source, const ParallelFor& parallel_for) {
 void Pyramid::halve_picture(const RowSource& source, const ParallelFor& parallel_for) {
   const Level &from = level(0), &to = level(1);
   struct Own {
-    Ring ring;
+    LastRows ring;
     Scratch scratch;
   };
-  const auto make = [&] { return Own{Ring(from, planes_), Scratch(from.width)}; };
+  const auto make = [&] { return Own{LastRows(from, planes_), Scratch(from.width)}; };
   for_rows(to.y_begin, to.y_end, parallel_for, make, [&](int y, Own& own) {
     fill(own.ring, from, source, 2 * y - 2, 2 * y + 2);
     for (int p = 0; p < planes_; ++p) {
@@ -146,8 +152,11 @@ void Pyramid::sum_top(const ParallelFor& parallel_for) {
       float* const out = blurred(last()).row(p, y);
       std::transform(sums.begin(), sums.end(), out + top.x_begin,
                      [](double x) { return static_cast<float>(x); });
+      add_halo(last(), p, y, out);
       finish_row(out, top.width, top.x_begin, top.x_end, ladder_.sides);
     }
+    Scratch scratch(top.width);
+    blur_ring_masks(last(), y, scratch);
   });
 }
 
@@ -161,9 +170,43 @@ void Pyramid::blur_level(int j, const ParallelFor& parallel_for) {
       std::vector<const float*> rows;
       for (int d = -at.reach(); d <= at.reach(); ++d) rows.push_back(sharp(j).row(p, y + d));
       add_rungs(at, rows.data(), at.x_begin, at.x_end, scratch, out);
+      add_halo(j, p, y, out);
       finish_row(out, at.width, at.x_begin, at.x_end, ladder_.sides);
     }
+    blur_ring_masks(j, y, scratch);
   });
+}
+
+void Pyramid::spread_halo(const ParallelFor& parallel_for) {
+  const int j = ladder_.halo.level, reach = halo_->reach();
+  const auto make = [reach] { return std::vector<const float*>(static_cast<std::size_t>(2 * reach + 1)); };
+  for_rows(halo_->y_begin(), halo_->y_end(), parallel_for, make, [&](int y, std::vector<const float*>& rows) {
+    for (int p = 0; p < planes_; ++p) {
+      for (int d = -reach; d <= reach; ++d)
+        rows[static_cast<std::size_t>(reach + d)] = sharp(j).row(p, y + d);
+      halo_->take(p, y, rows.data(), ladder_.sides);
+    }
+  });
+}
+
+void Pyramid::add_halo(int j, int plane, int y, float* out) const {
+  if (j == ladder_.halo.level && plane < rings())
+    halo_->add(plane, ladder_.halo.rings[static_cast<std::size_t>(plane)], y, out);
+}
+
+void Pyramid::blur_ring_masks(int j, int y, Scratch& scratch) {
+  if (j > ladder_.halo.level) return;
+  const Level& at = level(j);
+  for (int r = 0; r < rings(); ++r) {
+    float* const out = blurred(j).row(planes_ + r, y);
+    if (j < ladder_.halo.level) {
+      doubled_row(j, planes_ + r, y, scratch, out);
+    } else {
+      std::fill(out + at.x_begin, out + at.x_end, 0.0f);
+      halo_->add(planes_ - 1, ladder_.halo.rings[static_cast<std::size_t>(r)], y, out);
+    }
+    finish_row(out, at.width, at.x_begin, at.x_end, ladder_.sides);
+  }
 }
 
 void Pyramid::doubled_row(int j, int plane, int y, Scratch& scratch, float* out) const {

@@ -5,9 +5,11 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "stages/glare/pyramid/ladder.h"
+#include "stages/glare/pyramid/ring.h"
 #include "stages/glare/pyramid/rows.h"
 #include "stages/shared/parallel_for.h"
 
@@ -42,7 +44,9 @@ struct Scratch {
   Rows rows;
 };
 
-/// Levels 1 ... L of the planes of one picture: first what they hold, then what that is blurred to.
+/// Levels 1 ... L of the planes of one picture: first what they hold, then what that is blurred to. Where the
+/// ladder has a halo, the last plane is a mask, and each other has its ring: added to what it is blurred to,
+/// and of the mask a plane more, `planes` + that plane's number.
 class Pyramid {
  public:
   /// Fills row y of level 0, plane by plane, finished (finish_row).
@@ -59,10 +63,17 @@ class Pyramid {
     doubled_row(0, plane, y, scratch, out);
   }
 
+  /// Planes of the mask's rings: 0 without a halo.
+  static int rings(const Ladder& ladder, int planes) { return ladder.halo.level > 0 ? planes - 1 : 0; }
+
   /// What the constructor allocates.
   static std::size_t bytes(const Ladder& ladder, int planes);
 
  private:
+  int rings() const { return rings(ladder_, planes_); }
+  void spread_halo(const ParallelFor& parallel_for);
+  void add_halo(int j, int plane, int y, float* out) const;
+  void blur_ring_masks(int j, int y, Scratch& scratch);
   void halve_picture(const RowSource& source, const ParallelFor& parallel_for);
   void halve_level(int j, const ParallelFor& parallel_for);
   void sum_top(const ParallelFor& parallel_for);
@@ -79,6 +90,7 @@ class Pyramid {
   const Ladder& ladder_;
   int planes_;
   std::vector<Planes> sharp_, blurred_;
+  std::optional<RingPlanes> halo_;
 };
 
 /// Adds the rungs of a level to out, begin <= x < end, from its rows around: rows[reach + d] is d rows below.

@@ -170,6 +170,32 @@ void BlurRowAdd(const Level& level, const float* const* in, float* out, int begi
   for (; x < end; x += lanes()) blur_row_add_at<1>(level, in, out, x);
 }
 
+namespace {
+
+/// `many` vectors from x on.
+template <int many>
+HWY_INLINE void correlate_add_at(const float* in, const std::vector<float>& weights, float* out, int x) {
+  const D d;
+  V sums[many];
+  for (int i = 0; i < many; ++i) sums[i] = hn::LoadU(d, out + x + i * lanes());
+  const float* at = in + x;
+  for (const float weight : weights) {
+    const V w = hn::Set(d, weight);
+    for (int i = 0; i < many; ++i) sums[i] = hn::Add(sums[i], hn::Mul(w, hn::LoadU(d, at + i * lanes())));
+    ++at;
+  }
+  for (int i = 0; i < many; ++i) hn::StoreU(sums[i], d, out + x + i * lanes());
+}
+
+}  // namespace
+
+void CorrelateAdd(const float* in, const std::vector<float>& weights, float* out, int begin, int end) {
+  constexpr int many = 4;
+  int x = begin;
+  for (; x + many * lanes() <= end; x += many * lanes()) correlate_add_at<many>(in, weights, out, x);
+  for (; x < end; x += lanes()) correlate_add_at<1>(in, weights, out, x);
+}
+
 void AddScaled(const float* row, float weight, float* out, int width) {
   const D d;
   const V w = hn::Set(d, weight);
@@ -188,6 +214,7 @@ HWY_EXPORT(DoubleColumns);
 HWY_EXPORT(DoubleRow);
 HWY_EXPORT(BlurColumns);
 HWY_EXPORT(BlurRowAdd);
+HWY_EXPORT(CorrelateAdd);
 HWY_EXPORT(AddScaled);
 
 namespace {
@@ -243,6 +270,9 @@ void blur_columns(const Level& level, const float* const* rows, float* const* ou
 }
 void blur_row_add(const Level& level, const float* const* in, float* out, int begin, int end) {
   HWY_DYNAMIC_DISPATCH(BlurRowAdd)(level, in, out, begin, end);
+}
+void correlate_add(const float* in, const std::vector<float>& weights, float* out, int begin, int end) {
+  HWY_DYNAMIC_DISPATCH(CorrelateAdd)(in, weights, out, begin, end);
 }
 void add_scaled(const float* row, float weight, float* out, int width) {
   HWY_DYNAMIC_DISPATCH(AddScaled)(row, weight, out, width);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 #include "stages/glare/pyramid/ladder.h"
 
@@ -65,6 +66,9 @@ void blur_columns(const Level& level, const float* const* rows, float* const* ou
 /// out[x] += sum over rungs r of their blur along the row in[r], begin <= x < end; writes up to 15 floats
 /// more.
 void blur_row_add(const Level& level, const float* const* in, float* out, int begin, int end);
+
+/// out[x] += the sum over i of weights[i] in[x + i], begin <= x < end; writes up to 15 floats more.
+void correlate_add(const float* in, const std::vector<float>& weights, float* out, int begin, int end);
 
 /// out += weight row, samples 0 ... width - 1.
 void add_scaled(const float* row, float weight, float* out, int width);
