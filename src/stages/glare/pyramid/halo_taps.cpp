@@ -20,24 +20,21 @@ constexpr int points_of_sample = 16;
 // Where not even level 1 is fine enough, the halo is drawn wider than it is.
 constexpr double least_spread = 0.5;
 
-/// A level's samples in degrees.
-struct Pitch {
-  Pitch(const GlareGrid& grid, int level)
-      : x(std::ldexp(1.0, level) / grid.ppd_x), y(std::ldexp(1.0, level) / grid.ppd_y) {}
-  double coarse() const { return std::max(x, y); }
-  double x, y;
-};
-
 int level_of(const GlareGrid& grid, int last) {
-  const double samples = halo_sigma / Pitch(grid, 0).coarse();
+  const double samples = halo_sigma * std::min(grid.ppd_x, grid.ppd_y);
   return std::clamp(static_cast<int>(std::floor(std::log2(samples / least_sigma))), 1, last);
 }
 
-/// Along an axis of which a sample is `pitch` degrees.
-double spread_of(double pitch, int level) {
-  const double left = squared(halo_sigma / pitch) - blur_of_level(level) / std::ldexp(1.0, 2 * level) - hat;
+/// Along an axis of which a sample is `pitch` degrees and `pixels` pixels; `blur` is the pyramid's own.
+double spread_of(double pitch, double pixels, double blur) {
+  const double left = squared(halo_sigma / pitch) - blur / squared(pixels) - hat;
   return std::sqrt(std::max(left, squared(least_spread)));
 }
+
+/// A level's samples in degrees.
+struct Pitch {
+  double x, y;
+};
 
 /// A quarter of a ring of weight 1, to the right and below.
 class Quarter {
@@ -107,11 +104,11 @@ Halo halo_of(const GlareFunction& function, const GlareGrid& grid, const std::ve
   Halo out;
   if (function.halo() == 0) return out;
   out.level = level_of(grid, static_cast<int>(levels.size()) - 1);
-  const Pitch pitch(grid, out.level);
-  out.spread = {scaled(sampled_taps(spread_of(pitch.x, out.level)), 1),
-                scaled(sampled_taps(spread_of(pitch.y, out.level)), 1)};
-  out.wide = std::max(static_cast<int>(out.spread.x.size()), static_cast<int>(out.spread.y.size())) - 1;
   const Level& level = levels[static_cast<std::size_t>(out.level)];
+  const Pitch pitch = {level.across / grid.ppd_x, level.down / grid.ppd_y};
+  out.spread = {scaled(sampled_taps(spread_of(pitch.x, level.across, level.blur_x)), 1),
+                scaled(sampled_taps(spread_of(pitch.y, level.down, level.blur_y)), 1)};
+  out.wide = std::max(static_cast<int>(out.spread.x.size()), static_cast<int>(out.spread.y.size())) - 1;
   for (const double wavelength : halo_wavelengths) {
     out.rings.push_back(ring_of(Quarter(pitch, wavelength), grid.strength * function.halo(),
                                 level.x_end - level.x_begin + 2 * out.wide,

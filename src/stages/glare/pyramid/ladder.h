@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "stages/glare/psf.h"
+#include "stages/glare/pyramid/wrapped.h"
 
 namespace scotopic {
 
@@ -36,11 +37,14 @@ struct Rung {
   HalfTaps x, y;
 };
 
-/// A level: every second sample of the one below, of every second row.
+/// A level: every second sample of the one below, of every second row; of a panorama see wrapped.h.
 struct Level {
   int width, height;
   int x_begin, x_end, y_begin, y_end;  ///< the picture's samples and the margin
-  std::vector<Rung> rungs;             ///< widest first
+  double across = 1, down = 1;         ///< pixels from sample to sample
+  double blur_x = 0, blur_y = 0;       ///< squared sigma, pixels, of the ways up to this level and down again
+  std::vector<Wrapped> wrapped = {};   ///< how rows of a panorama are halved whose width is odd
+  std::vector<Rung> rungs = {};        ///< widest first
   int reach() const { return static_cast<int>(rungs.front().y.size()) - 1; }
 };
 
@@ -70,7 +74,7 @@ Halo halo_of(const GlareFunction& function, const GlareGrid& grid, const std::ve
 
 /// Levels 0 ... L-1 add their rungs; of the last, L, every pair of samples is summed directly.
 struct Ladder {
-  /// Throws std::invalid_argument for a grid outside its domain, or a panorama whose width will not halve.
+  /// Throws std::invalid_argument for a grid outside its domain.
   Ladder(const GlareFunction& function, const GlareGrid& grid);
 
   std::vector<Level> levels;  ///< the last has no rungs

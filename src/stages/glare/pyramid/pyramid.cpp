@@ -38,6 +38,13 @@ void fill(LastRows& ring, const Level& picture, const Pyramid::RowSource& source
   }
 }
 
+void halve_along(const Level& from, const float* in, const Level& to, float* out) {
+  if (from.wrapped.empty())
+    halve_row(in, out, to.x_begin, to.x_end);
+  else
+    halve_row_around(from.wrapped, in, out);
+}
+
 /// Offsets of rows in a panorama or a picture; the weight of two samples of the last level.
 double weight(const Ladder& ladder, int dx, int dy) {
   return static_cast<double>(
@@ -121,7 +128,7 @@ void Pyramid::halve_picture(const RowSource& source, const ParallelFor& parallel
         rows[i] = at < 0 || at >= from.height ? own.ring.zeros() : own.ring.row(p, at);
       }
       halve_columns(rows, own.scratch.rows.row(0), from.width);
-      halve_row(own.scratch.rows.row(0), sharp(1).row(p, y), to.x_begin, to.x_end);
+      halve_along(from, own.scratch.rows.row(0), to, sharp(1).row(p, y));
       finish_row(sharp(1).row(p, y), to.width, to.x_begin, to.x_end, ladder_.sides);
     }
   });
@@ -135,7 +142,7 @@ void Pyramid::halve_level(int j, const ParallelFor& parallel_for) {
       const float* rows[5];
       for (int i = 0; i < 5; ++i) rows[i] = sharp(j - 1).row(p, 2 * y - 2 + i);
       halve_columns(rows, scratch.rows.row(0), from.width);
-      halve_row(scratch.rows.row(0), sharp(j).row(p, y), to.x_begin, to.x_end);
+      halve_along(from, scratch.rows.row(0), to, sharp(j).row(p, y));
       finish_row(sharp(j).row(p, y), to.width, to.x_begin, to.x_end, ladder_.sides);
     }
   });
@@ -216,7 +223,11 @@ void Pyramid::doubled_row(int j, int plane, int y, Scratch& scratch, float* out)
   const float* const rows[3] = {from.row(plane, odd ? k : k - 1), from.row(plane, odd ? k + 1 : k),
                                 from.row(plane, k + 1)};
   double_columns(rows, odd, scratch.rows.row(0), level(j + 1).width);
-  double_row(scratch.rows.row(0), out, level(j).x_begin, level(j).x_end);
+  const Level& to = level(j);
+  if (to.wrapped.empty())
+    double_row(scratch.rows.row(0), out, to.x_begin, to.x_end);
+  else
+    double_row_around(to.wrapped, scratch.rows.row(0), out, to.width);
 }
 
 }  // namespace scotopic::glare

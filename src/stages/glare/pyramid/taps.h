@@ -9,9 +9,6 @@ namespace scotopic::glare {
 
 inline double squared(double x) { return x * x; }
 
-/// Squared sigma, in pixels, of j halvings by [1 4 6 4 1]/16 and as many doublings by its transpose.
-inline double blur_of_level(int j) { return 2.0 / 3.0 * (std::ldexp(1.0, 2 * j) - 1); }
-
 /// Taps to each side of a Gaussian of sigma s.
 inline int reach_of(double s) { return static_cast<int>(std::ceil(4 * s)); }
 
