@@ -1,5 +1,5 @@
-// Camera and grading encodings: codes as their makers published them (some recalled; all are held to the
-// formulas too), the makers' formulas in long double, primaries, round trips.
+// Camera and grading encodings: codes as their makers and colour-science publish them, colours as
+// OpenColorIO's own tests have them, the makers' formulas in long double, primaries, round trips.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,50 +32,96 @@ struct Published {
   double light, code, tolerance;
   const char* source;
 };
+#define COLOUR "colour-science 0.4.6, tests of "
 const Published published[] = {
-    {"ACEScct", 0.18, 0.4135884, 1e-7, "S-2016-001: log2(0.18)"},
-    {"ACEScct", 1, 0.554794520, 1e-7, "S-2016-001: 9.72/17.52"},
-    {"ACEScct", 0, 0.0729055, 1e-7, "S-2016-001: B"},
-    {"ACEScc", 0.18, 0.4135884, 3e-7, "S-2014-003"},
-    {"ACEScc", 1, 0.554794520, 3e-7, "S-2014-003"},
-    {"ARRI LogC3 (EI800)", 0.18, 0.391007, 1e-6, "ARRI, ALEXA LogC curve (2017): 400/1023"},
-    {"ARRI LogC3 (EI800)", 0, 0.092809, 1e-6, "the same: f at EI 800"},
-    {"ARRI LogC4", 0.18, 0.278396, 1e-6, "ARRI LogC4 specification (2022), table 2"},
-    {"ARRI LogC4", 0, 95.0 / 1023, 1e-6, "the same: black at 95/1023"},
-    {"ARRI LogC4", 469.8, 1, 1e-6, "the same: what code 1 stands for"},
-    {"DaVinci Intermediate WideGamut", 0.18, 0.336043, 1e-6, "Blackmagic Design (2021), table"},
-    {"DaVinci Intermediate WideGamut", 1, 0.513837, 1e-6, "the same"},
-    {"DaVinci Intermediate WideGamut", 10, 0.756599, 1e-6, "the same"},
-    {"DaVinci Intermediate WideGamut", 40, 0.903125, 1e-6, "the same"},
-    {"DaVinci Intermediate WideGamut", 100, 1, 1e-6, "the same"},
-    {"DaVinci Intermediate WideGamut", -0.01, -0.104443, 1e-6, "the same"},
-    {"S-Log3 S-Gamut3", 0, 95.0 / 1023, 1e-6, "Sony, Technical Summary for S-Gamut3/S-Log3: 95 of 1023"},
-    {"S-Log3 S-Gamut3.Cine", 0.18, 420.0 / 1023, 1e-6, "the same: 420 of 1023"},
-    {"S-Log3 S-Gamut3.Cine", 0.9, 598.0 / 1023, 5e-4, "the same: 598 of 1023, whole codes"},
-    {"V-Log V-Gamut", 0, 128.0 / 1023, 5e-4,
-     "Panasonic, V-Log/V-Gamut reference (2014): 128 of 1023, whole codes"},
-    {"V-Log V-Gamut", 0.18, 433.0 / 1023, 5e-4, "the same: 433 of 1023"},
-    {"V-Log V-Gamut", 0.9, 602.0 / 1023, 5e-4, "the same: 602 of 1023"},
-    {"Log3G10 REDWideGamutRGB", 0.18, 1.0 / 3, 1e-6, "RED, REDWideGamutRGB and Log3G10: 18 % at a third"},
-    {"Log3G10 REDWideGamutRGB", 0, 0.091551, 1e-6, "the same"},
-    {"Log3G10 REDWideGamutRGB", -0.01, 0, 1e-6, "the same"},
-    {"Log3G10 REDWideGamutRGB", 184.322, 1, 1e-6, "the same: ten stops over 18 %"},
-    {"CanonLog2 CinemaGamut D55", 0.18, 0.398254, 5e-6, "Canon Log Gamma Curves (2018): 18 % at 39.8 %"},
-    {"CanonLog2 CinemaGamut D55", 0, 0.092864, 1e-6, "the same"},
-    {"CanonLog3 CinemaGamut D55", 0.18, 0.343390, 5e-6, "the same: 18 % at 34.3 %"},
-    {"CanonLog3 CinemaGamut D55", 0, 0.125122, 1e-6, "the same"},
-    {"Apple Log", 0.18, 0.488272, 1e-6, "Apple Log Profile White Paper (2023)"},
-    {"Apple Log", 0, 0.150476, 1e-6, "the same: c R0^2"},
-    {"Apple Log", -0.05641088, 0, 1e-6, "the same: R0"},
+    {"ACEScct", 0.18, 0.413588402492442, 1e-7, COLOUR "log_encoding_ACEScct"},
+    {"ACEScct", 1, 0.554794520547945, 1e-7, COLOUR "log_encoding_ACEScct"},
+    {"ACEScct", 0, 0.072905534195836, 1e-7, COLOUR "log_encoding_ACEScct"},
+    {"ACEScc", 0.18, 0.413588402492442, 3e-7, COLOUR "log_encoding_ACEScc"},
+    {"ACEScc", 1, 0.554794520547945, 3e-7, COLOUR "log_encoding_ACEScc"},
+    {"Apple Log", 0, 0.150476452300913, 1e-6, COLOUR "log_encoding_AppleLogProfile"},
+    {"Apple Log", 0.18, 0.488272458526868, 1e-6, COLOUR "log_encoding_AppleLogProfile"},
+    {"Apple Log", 1, 0.694552983055191, 1e-6, COLOUR "log_encoding_AppleLogProfile"},
+    {"ARRI LogC3 (EI800)", 0, 0.092809000000000, 1e-6, COLOUR "log_encoding_ARRILogC3"},
+    {"ARRI LogC3 (EI800)", 0.18, 0.391006832034084, 1e-6, COLOUR "log_encoding_ARRILogC3"},
+    {"ARRI LogC3 (EI800)", 1, 0.570631558120417, 1e-6, COLOUR "log_encoding_ARRILogC3"},
+    {"ARRI LogC3 (EI800)", 0.18, 400.0 / 1023, 1e-5, "ARRI, ALEXA Mini LF manual, 15.1: 18 % at 400 of 1023"},
+    {"ARRI LogC4", 0, 0.092864125122190, 1e-6, COLOUR "log_encoding_ARRILogC4"},
+    {"ARRI LogC4", 0.18, 0.278395836548265, 1e-6, COLOUR "log_encoding_ARRILogC4"},
+    {"ARRI LogC4", 1, 0.427519364835306, 1e-6, COLOUR "log_encoding_ARRILogC4"},
+    {"BMDFilm WideGamut Gen5", 0, 0.092465753424658, 1e-6, COLOUR "oetf_BlackmagicFilmGeneration5"},
+    {"BMDFilm WideGamut Gen5", 0.18, 0.383561643835617, 1e-6, COLOUR "oetf_BlackmagicFilmGeneration5"},
+    {"BMDFilm WideGamut Gen5", 1, 0.530489624957305, 1e-6, COLOUR "oetf_BlackmagicFilmGeneration5"},
+    {"BMDFilm WideGamut Gen5", 222.86, 0.999999631713769, 1e-6, COLOUR "oetf_BlackmagicFilmGeneration5"},
+    {"DaVinci Intermediate WideGamut", -0.01, -0.104442685500000, 1e-6, COLOUR "oetf_DaVinciIntermediate"},
+    {"DaVinci Intermediate WideGamut", 0.18, 0.336043272384855, 1e-6, COLOUR "oetf_DaVinciIntermediate"},
+    {"DaVinci Intermediate WideGamut", 1, 0.513837441116225, 1e-6, COLOUR "oetf_DaVinciIntermediate"},
+    {"DaVinci Intermediate WideGamut", 100, 0.999999987016872, 1e-6, COLOUR "oetf_DaVinciIntermediate"},
+    {"CanonLog2 CinemaGamut D55", 0, 0.092864125000000, 1e-6, COLOUR "log_encoding_CanonLog2_v1_2"},
+    {"CanonLog2 CinemaGamut D55", 0.18, 0.398254692561492, 1e-6, COLOUR "log_encoding_CanonLog2_v1_2"},
+    {"CanonLog2 CinemaGamut D55", 1, 0.573229279230156, 1e-6, COLOUR "log_encoding_CanonLog2_v1_2"},
+    {"CanonLog3 CinemaGamut D55", 0, 0.125122189999999, 1e-6, COLOUR "log_encoding_CanonLog3_v1_2"},
+    {"CanonLog3 CinemaGamut D55", 0.18, 0.343389370373936, 1e-6, COLOUR "log_encoding_CanonLog3_v1_2"},
+    {"CanonLog3 CinemaGamut D55", 1, 0.580277794216371, 1e-6, COLOUR "log_encoding_CanonLog3_v1_2"},
+    {"Log3G10 REDWideGamutRGB", 0, 0.091551487714745, 1e-6, COLOUR "log_encoding_Log3G10_v3"},
+    {"Log3G10 REDWideGamutRGB", 0.18, 0.333332912025992, 1e-6, COLOUR "log_encoding_Log3G10_v3"},
+    {"Log3G10 REDWideGamutRGB", 0.18, 1.0 / 3, 1e-6, "DaVinci Resolve manual, Log3G10: mid grey at a third"},
+    {"Log3G10 REDWideGamutRGB", 184.32, 1, 1e-5, "the same: 1 at ten stops above mid grey"},
+    {"S-Log3 S-Gamut3", 0, 0.092864125122190, 1e-6, COLOUR "log_encoding_SLog3"},
+    {"S-Log3 S-Gamut3", 0.18, 0.410557184750733, 1e-6, COLOUR "log_encoding_SLog3"},
+    {"S-Log3 S-Gamut3", 1, 0.596027343690123, 1e-6, COLOUR "log_encoding_SLog3"},
+    {"S-Log3 S-Gamut3.Cine", 0, 95.0 / 1023, 0.0005,
+     "Sony's table as colour-science's log_encoding_SLog3 cites it"},
+    {"S-Log3 S-Gamut3.Cine", 0.18, 420.0 / 1023, 0.0005, "the same, whole codes"},
+    {"S-Log3 S-Gamut3.Cine", 0.9, 598.0 / 1023, 0.0005, "the same"},
+    {"V-Log V-Gamut", 0, 0.125, 1e-6, COLOUR "log_encoding_VLog"},
+    {"V-Log V-Gamut", 0.18, 0.423311448760136, 1e-6, COLOUR "log_encoding_VLog"},
+    {"V-Log V-Gamut", 1, 0.599117700158146, 1e-6, COLOUR "log_encoding_VLog"},
+    {"V-Log V-Gamut", 0, 128.0 / 1023, 0.0005,
+     "Panasonic, V-Log/V-Gamut Reference Manual (2014), fig. 2.2, whole codes"},
+    {"V-Log V-Gamut", 0.18, 433.0 / 1023, 0.0005, "the same"},
+    {"V-Log V-Gamut", 0.9, 602.0 / 1023, 0.0005, "the same"},
 };
 
-TEST(CameraSpaces, hold_the_codes_that_their_makers_published) {
+TEST(CameraSpaces, hold_the_codes_that_were_published) {
   const ColourConfig config = ColourConfig::own();
   for (const Published& row : published) {
     const Vec3<double> code =
         converted(config.from_working(config.space(row.space)), {row.light, row.light, row.light});
     for (const double c : code)
       EXPECT_NEAR(c, row.code, row.tolerance) << row.space << " " << row.light << ": " << row.source;
+  }
+}
+
+struct AcesColour {
+  const char* space;
+  Vec3<double> aces;  ///< ACES2065-1 of the codes 0.5, 0.4, 0.3
+};
+// OpenColorIO main of May 2026, tests/cpu/transforms/BuiltinTransform_tests.cpp.
+const AcesColour aces_colours[] = {
+    {"ACEScct", {0.386397222658, 0.158557251811, 0.043152537925}},
+    {"ACEScc", {0.386397222658, 0.158557251811, 0.043152537925}},
+    {"Apple Log", {0.153334766, 0.083515430, 0.032948254}},
+    {"ARRI LogC3 (EI800)", {0.401621427766, 0.236455447604, 0.064830001192}},
+    {"ARRI LogC4", {1.786878082249, 0.743018593362, 0.232840037656}},
+    {"CanonLog2 CinemaGamut D55", {0.408435767126, 0.197486903378, 0.034204558318}},
+    {"CanonLog3 CinemaGamut D55", {0.496034919950, 0.301015360499, 0.083691829261}},
+    {"V-Log V-Gamut", {0.306918773245, 0.148128050597, 0.046334439047}},
+    {"Log3G10 REDWideGamutRGB", {0.887988237100, 0.416932247547, -0.025442210717}},
+    {"S-Log3 S-Gamut3", {0.342259707137, 0.172043362337, 0.057188031769}},
+    {"S-Log3 S-Gamut3.Cine", {0.314942672433, 0.170408017753, 0.046854940520}},
+    {"S-Log3 Venice S-Gamut3", {0.35101694, 0.17165215, 0.05479717}},
+    {"S-Log3 Venice S-Gamut3.Cine", {0.32222527, 0.17032611, 0.04477848}},
+};
+
+TEST(CameraSpaces, give_the_aces_colours_of_opencolorios_own_tests) {
+  const ColourConfig config = ColourConfig::own();
+  const Matrix3<double> aces_from_working =
+      inverse(gamut_xyz_matrix("ap0").value()) * config.xyz_from_working();
+  for (const AcesColour& row : aces_colours) {
+    const Vec3<double> aces =
+        aces_from_working * converted(config.to_working(config.space(row.space)), {0.5, 0.4, 0.3});
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(aces[c], row.aces[c], 2e-6) << row.space << c;
   }
 }
 

@@ -56,6 +56,17 @@ std::string id_of(const LookSpec& spec) {
                      spec.edge);
 }
 
+/// Where nodes lie beyond codes: a reader that holds them as integers loses, or wraps round, those.
+std::vector<std::string> node_lines(const Chain& chain) {
+  const auto* lut = std::get_if<Lut3DStep>(&chain.steps.back());
+  if (lut == nullptr) return {};
+  const auto [low, high] = std::minmax_element(lut->values.begin(), lut->values.end());
+  if (*low >= 0 && *high <= 1) return {};
+  return {fmt::format(
+      "Nodes lie between {} and {} for the sake of what is between them: to be held as floating point",
+      rounded_text(*low, 2), rounded_text(*high, 4))};
+}
+
 /// What the file says of itself.
 void describe(BakedLook& look, const std::string& version) {
   const LookSpec& spec = look.spec;
@@ -75,6 +86,8 @@ void describe(BakedLook& look, const std::string& version) {
   for (const std::string& line :
        look.cube ? error_lines(*look.cube, spec) : std::vector{stated(look.error, spec)})
     chain.descriptions.push_back(line);
+  if (look.cube)
+    for (const std::string& line : node_lines(chain)) chain.descriptions.push_back(line);
   chain.descriptions.push_back(spec_text(spec));
   chain.info = {{"Application", "scotopic"}, {"Version", version}};
 }

@@ -70,6 +70,7 @@ TEST_F(BakeCube, of_a_display_gives_its_codes) {
   const std::string text = test::read_text(file).substr(0, 4000);
   EXPECT_NE(text.find("# out: Rec.1886 Rec.709 - Display, peak 100 cd/m2\n"), std::string::npos) << text;
   EXPECT_NE(text.find("the display stage, CIEDE2000 of what is shown"), std::string::npos) << text;
+  EXPECT_NE(text.find("# Nodes lie between -0."), std::string::npos) << text;
   EXPECT_EQ(run_program({"check", file}).exit_code, 0);
   const std::string hdr = baked("h.cube", {"--adaptation", "0.1", "--colorspace", "ACEScct", "--size", "17",
                                            "--display", "night:Rec.2100-PQ - Display"});

@@ -142,8 +142,8 @@ struct Eye {
 const Eye eyes[] = {
     {"La 0.1", 0.1, false}, {"night 0.1", 0.1, true}, {"La 1", 1, false}, {"La 0.01", 0.01, false}};
 
-// The table of docs/cubes.md, a quarter for each eye; some five minutes of one core each:
-// test_cubes --gtest_also_run_disabled_tests --gtest_filter='*CubeTable*' | grep '^|' | sort -k1,1 -s
+// The table of docs/cubes.md, a quarter for each eye; some three minutes of one core each:
+// test_cubes --gtest_also_run_disabled_tests --gtest_filter='*CubeTable*' | grep '^|'
 class CubeTable : public testing::TestWithParam<Eye> {};
 
 TEST_P(CubeTable, DISABLED_of_every_space) {
