@@ -2,6 +2,7 @@
 #include "io/exr/exr_headers.h"
 
 #include <OpenEXR/ImfCompression.h>
+#include <OpenEXR/ImfLineOrder.h>
 #include <OpenEXR/OpenEXRConfig.h>
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -119,6 +120,10 @@ bool read_attribute(HeaderReader& in, PartSizes& part) {
   const std::int64_t end = in.left() - size;
   if (name == "dataWindow" && type == "box2i" && size == 16) read_window(in, part);
   if (name == "channels" && type == "chlist") count_channels(in, end, part);
+  if (name == "lineOrder" && size == 1 && static_cast<unsigned char>(in.next()) >= Imf::NUM_LINEORDERS)
+    in.fail("is damaged: its rows are in an order that OpenEXR does not know");
+  if (name == "chunkCount" && type == "int" && size == 4 && in.number<std::int32_t>() < 1)
+    in.fail("is damaged: its header counts no chunks");
   if (name == "compression" && size == 1) part.compression = static_cast<unsigned char>(in.next());
   if (type == "preview" && size >= 8) {
     const std::int64_t width = in.number<std::uint32_t>(), height = in.number<std::uint32_t>();
@@ -166,6 +171,16 @@ void check_part(const std::string& file, const PartSizes& part, const Limits& li
     in.fail(fmt::format("is truncated: {} bytes do not hold the table of its {} chunks", in.size(), chunks));
 }
 
+/// The table behind the headers, or its first part: where chunks begin; 0: it is not written yet. Some
+/// releases of OpenEXR make another table where this one is wrong.
+void check_chunk_table(HeaderReader& in, std::int64_t chunks) {
+  for (std::int64_t i = 0; i < chunks; ++i) {
+    const auto offset = in.number<std::int64_t>();
+    if (offset < 0 || offset >= in.size())
+      in.fail(fmt::format("is truncated or damaged: chunk {} of its table lies beyond its end", i));
+  }
+}
+
 }  // namespace
 
 void check_exr_headers(const std::string& file, const Limits& limits) {
@@ -182,6 +197,7 @@ void check_exr_headers(const std::string& file, const Limits& limits) {
     more = multi_part && attributes > 0;
     if (attributes > 0) check_part(file, part, limits, in, chunks);
   }
+  check_chunk_table(in, chunks);
 }
 
 }  // namespace scotopic

@@ -1,4 +1,4 @@
-// The text in front of a Radiance picture: "Radiance File Formats" (G. Ward), "Subimage Files (.hdr)".
+// The text in front of a Radiance picture: "Radiance File Formats" (G. Ward), "Picture Files (.hdr)".
 #include <cmath>
 #include <fstream>
 #include <sstream>
