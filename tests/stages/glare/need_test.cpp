@@ -41,11 +41,12 @@ Picture scene(std::mt19937& random, int width, int height, double ground, double
   return out;
 }
 
+// 200 with light above the threshold, and those without that come up among them.
 void bounds_the_rise_of_every_pixel_on_200_scenes(double halo) {
   std::mt19937 random(4);
   int skipped = 0, above = 0;
   double nearest = 0, largest = 0;
-  for (int n = 0; n < 200; ++n) {
+  for (int n = 0; above < 200; ++n) {
     const int width = 40 + static_cast<int>(random() % 160), height = 40 + static_cast<int>(random() % 100);
     const double ppd = 3 + static_cast<double>(random() % 60);
     const Picture in = scene(random, width, height, n % 2 == 0 ? 0.9 : 0.05, n % 3 == 0 ? 5 : 3);
