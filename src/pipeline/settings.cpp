@@ -1,5 +1,7 @@
 #include "pipeline/settings.h"
 
+#include <cstddef>
+
 #include "base/error.h"
 #include "color/primaries.h"
 #include "pipeline/stages/stages.h"
@@ -21,6 +23,12 @@ AppearanceParameters parameters_of(const OperatorChoice& choice, double adaptati
 
 AppearanceParameters parameters_of(const OperatorChoice& choice, double adaptation) {
   return parameters_of(choice, adaptation, choice.white_luminance.value_or(adaptation / middle_grey));
+}
+
+std::optional<Lamp> lamp_of(const OperatorChoice& choice) {
+  constexpr double surrounds[] = {average_surround, dim_surround, dark_surround};
+  if (!choice.lamp) return std::nullopt;
+  return Lamp{*choice.lamp, surrounds[static_cast<std::size_t>(choice.stages.number("surround"))]};
 }
 
 void add_stages(ImageSettings& settings) {

@@ -16,6 +16,7 @@
 #include "pipeline/rows/stages.h"
 #include "pipeline/stages/stage_values.h"
 #include "stages/display/local/display.h"
+#include "stages/lamp/lamp.h"
 #include "stages/shared/parameters.h"
 
 namespace scotopic {
@@ -101,6 +102,9 @@ void set_primaries(OperatorChoice& choice, const ColourConfig& config);
 AppearanceParameters parameters_of(const OperatorChoice& choice, double adaptation, double white_luminance);
 /// Without a picture: the unit is as asked for, else such that middle grey is what the eye is adapted to.
 AppearanceParameters parameters_of(const OperatorChoice& choice, double adaptation);
+
+/// The lamp that the eye is used to, as the stage has it.
+std::optional<Lamp> lamp_of(const OperatorChoice& choice);
 
 /// Error(config) for a space that the config does not have: before any file is opened.
 void check_spaces(const ImageRequest& request, const ColourConfig& config);

@@ -4,54 +4,70 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
+#include <memory>
 
-#include "adaptation/chromatic_adaptation.h"
-#include "color/colour_config.h"
 #include "pipeline/rows/threads.h"
-#include "pipeline/run.h"
-#include "support/exr_files.h"
+#include "pipeline/stage_runs.h"
 
 namespace scotopic {
 namespace {
 
+using test::bits;
+using test::picture;
 using test::read_bits;
+using test::run;
+using test::settings;
 using test::temporary;
 using test::TestPart;
 using test::write_exr;
 
-TestPart picture(int width = 300, int height = 83) {
-  TestPart part;
-  part.finite = true;
-  part.data = part.display = {0, 0, width, height};
-  for (const char* name : {"R", "G", "B"}) part.channels.push_back({name, PixelType::float32});
-  return part;
-}
+/// A stage that counts what it is asked for, and changes nothing.
+class Counting : public PointStage {
+ public:
+  explicit Counting(std::atomic<int>& memories) : memories_(memories) {}
+  std::string_view name() const noexcept override { return "counting"; }
+  EffectDecision decide(const StageScene&) const override {
+    return {.effect = name(), .asked = true, .needed = true, .share = 1};
+  }
+  std::vector<Attribute> stamps(const StageScene&) const override { return {}; }
+  std::unique_ptr<const RowStage> make(const StageScene&, const Notes&) const override {
+    return std::make_unique<Rows>(memories_);
+  }
 
-ImageSettings settings(double adaptation, const std::string& effects) {
-  ImageSettings s(ColourConfig::own());
-  s.choice.adaptation = adaptation;
-  s.choice.white_luminance = adaptation / 0.18;
-  s.choice.plan_effects = effects == "auto";
-  s.choice.stages.set_effects(effects);
-  s.choice.stages.set_pixel_stages(s.choice.parameters);
-  s.viewing.pixels_per_degree = 30;
-  set_primaries(s.choice, s.config);
-  return s;
-}
+ private:
+  struct Rows : RowStage {
+    explicit Rows(std::atomic<int>& m) : memories(m) {}
+    bool asks_for_scene() const noexcept override { return true; }
+    std::unique_ptr<RowMemory> memory() const override {
+      ++memories;
+      return std::make_unique<RowMemory>();
+    }
+    void apply(const PixelRows&, const RowSight& sight, std::uint8_t*) const override {
+      EXPECT_NE(sight.memory, nullptr);
+    }
+    std::atomic<int>& memories;
+  };
+  std::atomic<int>& memories_;
+};
 
-ImageReport run(const std::string& in, const std::string& out, ImageSettings s, int frame = 0) {
-  add_stages(s);
-  ImageJob job;
-  job.input = in;
-  job.output = out;
-  job.moment.frame = frame;
-  ExactEvaluators evaluators;
-  return run_image(job, s, evaluators, {});
+TEST(PointStages, what_they_remember_of_rows_serves_a_thread_for_the_whole_picture) {
+  const std::string in = temporary("memory.exr"), out = temporary("memory-out.exr");
+  write_exr(in, {picture(300, 200)});
+  for (const int threads : {1, 3})
+    for (const char* effects : {"shift", "shift,detail"}) {
+      std::atomic<int> memories = 0;
+      ImageSettings s = settings(0.001, effects);
+      s.point_stages.push_back(std::make_shared<const Counting>(memories));
+      set_threads(threads);
+      run(in, out, s);
+      EXPECT_GE(memories, 1) << effects;
+      EXPECT_LE(memories, threads) << effects;
+    }
+  set_threads(0);
 }
-
-std::vector<std::uint32_t> bits(const std::string& file) { return read_bits(file, 0, 0, 0, "G"); }
 
 TEST(NoiseStage, moves_with_the_frame_and_each_frame_is_its_own_whoever_makes_it) {
   const std::string in = temporary("noise.exr"), a = temporary("noise-a.exr"), b = temporary("noise-b.exr");
@@ -193,76 +209,6 @@ TEST(DetailStage, strength_0_and_light_enough_leave_every_bit) {
   EXPECT_EQ(bits(in), bits(out));
   ImageSettings day = settings(30, "auto");
   EXPECT_FALSE(run(in, out, day).scene.plan.effect("detail").needed);
-}
-
-TEST(LampStage, takes_a_lamp_s_white_as_far_to_d65_as_the_degree_says) {
-  const std::string in = temporary("lamp.exr"), out = temporary("lamp-out.exr");
-  write_exr(in, {picture()});
-  ImageSettings s = settings(0.01, "none");
-  s.choice.lamp = Vec3<double>{1.2, 1, 0.3};
-  const ImageReport report = run(in, out, s);
-  EXPECT_TRUE(report.scene.plan.effect("lamp").runs());
-  // CIECAM02: D at 0.01 cd/m2 in an average surround.
-  EXPECT_NEAR(report.scene.plan.effect("lamp").number, 0.824052, 1e-6);
-  const Matrix3<double>& xyz = s.choice.parameters.xyz_from_rgb;
-  const Matrix3<double> m =
-      inverse(xyz) * (adapt_to_lamp({1.2, 1, 0.3}, report.scene.plan.effect("lamp").number) * xyz);
-  std::vector<std::uint32_t> planes[3], results[3];
-  for (std::size_t c = 0; c < 3; ++c) {
-    planes[c] = read_bits(in, 0, 0, 0, std::string(1, "RGB"[c]));
-    results[c] = read_bits(out, 0, 0, 0, std::string(1, "RGB"[c]));
-  }
-  for (std::size_t i = 0; i < planes[0].size(); ++i) {
-    const Vec3<double> rgb = {std::bit_cast<float>(planes[0][i]), std::bit_cast<float>(planes[1][i]),
-                              std::bit_cast<float>(planes[2][i])};
-    const Vec3<double> expected = m * rgb;
-    if (std::min({expected[0], expected[1], expected[2]}) < 0) continue;  // see below
-    for (std::size_t c = 0; c < 3; ++c)
-      ASSERT_NEAR(std::bit_cast<float>(results[c][i]), expected[c], 1e-6 * (rgb[0] + rgb[1] + rgb[2])) << i;
-  }
-}
-
-TEST(LampStage, what_leaves_the_gamut_fades_at_its_luminance) {
-  const std::string in = temporary("lamp.exr"), out = temporary("lamp-out.exr");
-  write_exr(in, {picture()});
-  ImageSettings s = settings(0.01, "none");
-  s.choice.lamp = Vec3<double>{1.3, 1, 0.05};
-  run(in, out, s);
-  int faded = 0;
-  const Vec3<double> y = s.choice.parameters.xyz_from_rgb[1];
-  const Matrix3<double>& xyz = s.choice.parameters.xyz_from_rgb;
-  const Matrix3<double> m = inverse(xyz) * (adapt_to_lamp({1.3, 1, 0.05}, adaptation_degree(0.01)) * xyz);
-  std::vector<std::uint32_t> planes[3], results[3];
-  for (std::size_t c = 0; c < 3; ++c) {
-    planes[c] = read_bits(in, 0, 0, 0, std::string(1, "RGB"[c]));
-    results[c] = read_bits(out, 0, 0, 0, std::string(1, "RGB"[c]));
-  }
-  for (std::size_t i = 0; i < planes[0].size(); ++i) {
-    Vec3<double> rgb, seen;
-    for (std::size_t c = 0; c < 3; ++c) {
-      rgb[c] = std::bit_cast<float>(planes[c][i]);
-      seen[c] = std::bit_cast<float>(results[c][i]);
-    }
-    const Vec3<double> expected = m * rgb;
-    if (std::min({expected[0], expected[1], expected[2]}) >= 0) continue;
-    ++faded;
-    const double light = rgb[0] + rgb[1] + rgb[2];
-    ASSERT_NEAR(dot(y, seen), dot(y, expected), 1e-6 * light) << i;
-    ASSERT_NEAR(std::min({seen[0], seen[1], seen[2]}), 0, 1e-6 * light) << i;
-  }
-  EXPECT_GT(faded, 100);
-}
-
-TEST(LampStage, no_lamp_or_d65_changes_no_bit) {
-  const std::string in = temporary("lamp.exr"), out = temporary("lamp-out.exr");
-  write_exr(in, {picture()});
-  for (const std::optional<Vec3<double>>& lamp :
-       {std::optional<Vec3<double>>(), std::optional(adapted_white)}) {
-    ImageSettings s = settings(0.01, "none");
-    s.choice.lamp = lamp;
-    EXPECT_FALSE(run(in, out, s).scene.plan.effect("lamp").runs());
-    EXPECT_EQ(bits(in), bits(out));
-  }
 }
 
 }  // namespace

@@ -87,6 +87,8 @@ LookSpec spec_for(OperatorChoice choice, const BakeOptions& o, const ColourConfi
   LookSpec spec;
   spec.parameters = parameters_of(choice, adaptation);
   spec.gamut = choice.gamut;
+  spec.lamp = lamp_of(choice);
+  if (spec.lamp && !changes_light(*spec.lamp, spec.parameters)) spec.lamp.reset();  // D65
   spec.edge = edge_of(o);
   spec.space = o.colourspace.empty() ? config.working_space() : config.resolve(o.colourspace);
   const std::optional<Matrix3<double>> linear = linear_space_matrix(config, spec.space);
@@ -111,7 +113,7 @@ std::vector<LookSpec> specs_for_config(const BakeOptions& o, const ColourConfig&
     choice = operator_choice(other);
     for (const double adaptation : adaptations_of(o)) {
       const LookSpec spec = spec_for(choice, o, config, adaptation);
-      if (!is_identity(spec.parameters)) specs.push_back(spec);
+      if (!is_identity(spec)) specs.push_back(spec);
     }
   }
   for (const LookSpec& spec : specs)
@@ -161,6 +163,7 @@ std::string command_of(const BakeOptions& o) {
   if (!o.beside.empty()) text += " --beside " + o.beside;
   text += " --model " + o.appearance.model + " --size " + (o.size.empty() ? "33" : o.size) +
           (o.into.empty() ? " --config DIR" : " --into CONFIG");
+  if (!o.appearance.adapt_white.empty()) text += " --adapt-white " + o.appearance.adapt_white;
   return o.luts.empty() ? text : text + " --luts LUTS";
 }
 

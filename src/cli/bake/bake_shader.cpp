@@ -65,6 +65,10 @@ void refuse_options_of_luts(const BakeOptions& o) {
 
 void check_shader_options(const BakeOptions& o) {
   refuse_options_of_luts(o);
+  if (!o.appearance.adapt_white.empty())
+    throw Error(
+        ExitCode::usage, "",
+        "--adapt-white is not in a shader: bake a LUT, or adapt the light by a matrix before the shader");
   (void)language_of(o);
   (void)visibility_of(o);
   (void)adaptation_of(o);

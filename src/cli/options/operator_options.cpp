@@ -80,7 +80,7 @@ void add_operator_options(CLI::App& verb, OperatorOptions& o, StagesShown shown)
   add("--gamut", o.gamut, "Results stay in: working (default), rec709, rec2020, p3, ap1, none", "NAME");
   add("--illuminant", o.illuminant, "S/P ratio, spectrum (nm and power a line), or of: " + illuminant_names(),
       "NAME|S/P|FILE");
-  if (shown == StagesShown::all)
+  if (shown != StagesShown::fused)
     add("--adapt-white", o.adapt_white,
         "White that the eye is used to: lamp (that of --illuminant), x,y or X,Y,Z (default: none, D65)",
         "lamp|XY|XYZ");

@@ -4,12 +4,14 @@
 
 #include "cli/options/values.h"
 #include "stages/detail/description.h"
+#include "stages/lamp/description.h"
 
 namespace scotopic {
 namespace {
 
 bool has_options(const StageEntry& entry, StagesShown shown) {
-  return shown == StagesShown::all || entry.set;
+  const bool before = shown == StagesShown::look && entry.description->name == lamp_description.name;
+  return shown == StagesShown::all || entry.set || before;
 }
 
 std::string kind_of(const StageParameter& p) {
@@ -67,7 +69,7 @@ void add_stage_options(CLI::App& verb, StageOptions& o, StagesShown shown) {
           : "";
   verb.add_option("--effects", o.effects,
                   "auto (default: what the scene calls for), all" + of_images + ", none, or of " +
-                      effect_names(o.table, shown == StagesShown::fused))
+                      effect_names(o.table, shown != StagesShown::all))
       ->type_name("LIST")
       ->group("What is seen");
   for (const StageEntry& entry : o.table)

@@ -11,7 +11,8 @@ namespace scotopic {
 
 /// Which stages a verb has options for.
 enum class StagesShown {
-  fused,  ///< the pixel stages: what a look holds
+  fused,  ///< the pixel stages
+  look,   ///< what a look holds: these, and the lamp before them
   all,
 };
 

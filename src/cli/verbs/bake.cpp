@@ -184,7 +184,7 @@ void add_bake(CLI::App& program, Invocation& invocation) {
                 "replace other LUTs");
   add("--beside", o.beside, "With --config or --into: the same looks by a second model, too", "MODEL");
   add("--max-error", o.max_error, "Fail if the largest measured error exceeds this", "DE00");
-  add_operator_options(verb, o.appearance);
+  add_operator_options(verb, o.appearance, StagesShown::look);
   verb.remove_option(verb.get_option("--adaptation"));
   verb.add_option("--adaptation", o.adaptations,
                   "Luminance the eye is adapted to; repeatable; or ladder: all that ship")

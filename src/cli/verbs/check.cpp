@@ -42,7 +42,7 @@ OnImage compare_on_image(const CheckOptions& o, const ColourConfig& config, cons
     const Colours in{row.r, row.g, row.b};
     Colours got = in;
     apply(processor, got);
-    comparison.add(in, exact(spec.parameters, in), got);
+    comparison.add(in, exact(spec.parameters, seen_under(spec.lamp, spec.parameters, in)), got);
     width = in.size();
   });
   source->require_unchanged();

@@ -16,23 +16,32 @@
 namespace scotopic {
 namespace {
 
+/// "0.1 cd/m2".
+std::string adapted_text(const LookSpec& spec) {
+  const std::string text = adaptation_text(spec.parameters.adaptation) + " cd/m2";
+  if (!spec.lamp) return text;
+  return text + fmt::format(" and to {:.3g} of the colour of a lamp (x {:.4f} y {:.4f})",
+                            lamp_degree(*spec.lamp, spec.parameters), spec.lamp->x(), spec.lamp->y());
+}
+
 LookEntry entry_of(const BakedLook& look) {
   const AppearanceParameters& p = look.spec.parameters;
   LookEntry entry;
-  entry.name = look_name(p);
-  entry.file = look_file_stem(p) + ".clf";
+  entry.name = look_name(look.spec);
+  entry.file = look_file_stem(look.spec) + ".clf";
   entry.description = fmt::format(
-      "Adapted to {} cd/m2, model {}; value 1 stands for {:.4g} cd/m2. Forward only: the inverse does "
+      "Adapted to {}, model {}; value 1 stands for {:.4g} cd/m2. Forward only: the inverse does "
       "nothing. CIEDE2000 to the "
       "operator: {}",
-      adaptation_text(p.adaptation), name_of(p.model), p.white_luminance, error_text(look.error));
+      adapted_text(look.spec), name_of(p.model), p.white_luminance, error_text(look.error));
   return entry;
 }
 
 LookEntry context_entry(const LookSpec& spec) {
   LookEntry entry;
   entry.name = std::string("Mesopic by ") + context_variable;
-  entry.file = std::string(name_of(spec.parameters.model)) + "_$" + context_variable + ".clf";
+  entry.file =
+      std::string(name_of(spec.parameters.model)) + "_$" + context_variable + lamp_stem(spec) + ".clf";
   entry.description = std::string("Adapted to the luminance in context variable ") + context_variable +
                       " (cd/m2, one of the ladder's). For pipelines: a value without a file is an error";
   entry.view = false;
@@ -57,10 +66,10 @@ LookEntry chroma_entry(const AppearanceParameters& p) {
 
 /// The operator's light as dark as the eye sees it, without a shoulder: for those who keep a view of their
 /// own.
-LookEntry night_entry(const LookEntry& look, const AppearanceParameters& p) {
-  const double stops = visibility_stops(p.adaptation, NightDisplayParameters().rule);
+LookEntry night_entry(const LookEntry& look, const LookSpec& spec) {
+  const double stops = visibility_stops(spec.parameters.adaptation, NightDisplayParameters().rule);
   LookEntry entry;
-  entry.name = night_name(p.adaptation);
+  entry.name = night_name(spec);
   entry.description = fmt::format(
       "{}, {:.2f} stops darker: what is just visible in the scene is just visible on a display. "
       "Scene-linear: under a view of your own",
@@ -92,11 +101,11 @@ LookSet bake_set(const std::vector<LookSpec>& specs, const ColourConfig& config,
   if (specs.empty()) return set;
   for (std::size_t i = 0; i < specs.size(); ++i)
     if (specs[i].parameters.model == specs.front().parameters.model)
-      set.entries.push_back(night_entry(set.entries[i], specs[i].parameters));
+      set.entries.push_back(night_entry(set.entries[i], specs[i]));
   if (context) set.entries.push_back(context_entry(specs.front()));
   const Model model = specs.front().parameters.model;
   for (const LookSpec& spec : specs)
-    if (spec.parameters.model == model && !is_identity(spec.parameters))
+    if (spec.parameters.model == model && !spec.lamp && !is_identity(spec.parameters))
       set.entries.push_back(chroma_entry(spec.parameters));
   return set;
 }
@@ -115,9 +124,9 @@ void add_nights(LookSet& set, const std::vector<LookSpec>& specs, const ColourCo
       set.luts.push_back({file, xml_text(look.chain, ChainFormat::clf)});
       set.nights.push_back(
           {look.chain.name,
-           fmt::format("Adapted to {} cd/m2, as dark as the eye sees it; value 1 stands for "
+           fmt::format("Adapted to {}, as dark as the eye sees it; value 1 stands for "
                        "{:.4g} cd/m2. {} to the program's own: {}",
-                       adaptation_text(spec.parameters.adaptation), spec.parameters.white_luminance,
+                       adapted_text(spec), spec.parameters.white_luminance,
                        kind.peak > display_white ? "Delta E ITP" : "CIEDE2000", error_text(look.error)),
            file, kind.gamut});
     }

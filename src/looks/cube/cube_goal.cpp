@@ -27,6 +27,7 @@ Comparison::Difference difference_of(const LookSpec& spec) {
 
 CubeGoal::CubeGoal(const LookSpec& spec, const ColourConfig& config)
     : parameters_(spec.parameters),
+      lamp_(spec.lamp),
       night_(spec.night),
       to_light_(config.to_working(config.space(spec.space))),
       from_light_(config.from_working(config.space(spec.space))),
@@ -39,7 +40,7 @@ Colours CubeGoal::light(Colours codes) const { return converted(to_light_, std::
 Colours CubeGoal::codes(Colours light) const { return converted(from_light_, std::move(light)); }
 
 Colours CubeGoal::exact(const Colours& codes) const {
-  Colours out = light(codes);
+  Colours out = seen_under(lamp_, parameters_, light(codes));
   if (night_) {
     out = exact_night(parameters_, *night_, std::move(out));
     scale(out, night_->peak / display_white);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "color/colour_config.h"
@@ -32,6 +33,7 @@ class CubeGoal {
 
  private:
   AppearanceParameters parameters_;
+  std::optional<Lamp> lamp_;
   std::optional<NightDisplayParameters> night_;
   RowConverter to_light_, from_light_, to_codes_, from_codes_;
   Comparison::Difference difference_;

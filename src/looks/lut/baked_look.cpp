@@ -50,10 +50,9 @@ std::string output_of(const LookSpec& spec) {
 
 std::string id_of(const LookSpec& spec) {
   if (!spec.encoded)
-    return fmt::format("scotopic-{}-{}", spec.night ? night_file_stem(spec) : look_file_stem(spec.parameters),
+    return fmt::format("scotopic-{}-{}", spec.night ? night_file_stem(spec) : look_file_stem(spec),
                        spec.edge);
-  return fmt::format("scotopic-{}{}-{}-encoded", spec.night ? "night-" : "", look_file_stem(spec.parameters),
-                     spec.edge);
+  return fmt::format("scotopic-{}{}-{}-encoded", spec.night ? "night-" : "", look_file_stem(spec), spec.edge);
 }
 
 /// Where nodes lie beyond codes: a reader that holds them as integers loses, or wraps round, those.
@@ -72,7 +71,7 @@ void describe(BakedLook& look, const std::string& version) {
   const LookSpec& spec = look.spec;
   const AppearanceParameters& p = spec.parameters;
   Chain& chain = look.chain;
-  chain.name = spec.night ? night_name(p.adaptation) : look_name(p);
+  chain.name = spec.night ? night_name(spec) : look_name(spec);
   chain.id = id_of(spec);
   chain.input = fmt::format("{}, 1 stands for {} cd/m2", spec.space, rounded_text(p.white_luminance, 6));
   if (spec.encoded)
@@ -83,6 +82,12 @@ void describe(BakedLook& look, const std::string& version) {
       fmt::format("What an eye adapted to {} cd/m2 sees, by the scotopic appearance operator {}, model {}",
                   adaptation_text(p.adaptation), version, name_of(p.model)),
       "Forward only: the operator has no inverse. Alpha is not touched"};
+  if (spec.lamp)
+    chain.descriptions.push_back(
+        fmt::format("The eye is used to {} of the colour of a lamp (x {:.4f}, y {:.4f}): CAT16 before the "
+                    "receptors; what that "
+                    "takes out of the gamut fades at its luminance",
+                    rounded_text(lamp_degree(*spec.lamp, p), 4), spec.lamp->x(), spec.lamp->y()));
   for (const std::string& line :
        look.cube ? error_lines(*look.cube, spec) : std::vector{stated(look.error, spec)})
     chain.descriptions.push_back(line);
@@ -127,7 +132,6 @@ std::optional<Matrix3<double>> linear_space_matrix(const ColourConfig& config, c
 BakedLook bake_look(const LookSpec& spec, const ColourConfig& config, const std::string& version) {
   BakedLook look{spec, {}, {}};
   Chain& chain = look.chain;
-  const OCIO::ConstConfigRcPtr raw = OCIO::Config::CreateRaw();
   if (spec.encoded) {
     BakedCube cube = cube_of(spec, config);
     look.spec.edge = cube.edge;
@@ -135,20 +139,18 @@ BakedLook bake_look(const LookSpec& spec, const ColourConfig& config, const std:
     look.error = cube.error.rec709.by_reading[0];
     look.cube = std::move(cube.error);
   } else if (spec.night) {
-    chain = night_chain(spec.parameters, *spec.night, spec.edge);
-    look.error = measure_night(spec.parameters, *spec.night, cpu_processor(ocio_transform(chain), raw),
-                               spec.parameters.xyz_from_rgb);
+    chain = night_chain(spec.parameters, *spec.night, spec.edge, spec.lamp);
   } else {
     const std::optional<Matrix3<double>> matrix = look_matrix(spec.parameters);
-    if (is_identity(spec.parameters))
+    if (is_identity(spec))
       chain.steps = {MatrixStep{}};
-    else if (matrix)
+    else if (matrix && !spec.lamp)
       chain.steps = {RangeStep{-look_limit, look_limit}, MatrixStep{*matrix, {}}};
     else
-      chain = look_chain(spec.parameters, spec.edge);
-    look.error = measure_bake(spec.parameters, cpu_processor(ocio_transform(chain), raw),
-                              spec.parameters.xyz_from_rgb);
+      chain = look_chain(spec.parameters, spec.edge, spec.lamp);
   }
+  if (!spec.encoded)
+    look.error = measure_look(spec, cpu_processor(ocio_transform(chain), OCIO::Config::CreateRaw()));
   describe(look, version);
   return look;
 }

@@ -54,6 +54,15 @@ class Nodes {
           b_[n] = static_cast<float>(rgb[2]);
         }
   }
+  void see_under(const Lamp& lamp, const AppearanceParameters& parameters) {
+    const LampOnRgb seen(lamp, parameters);
+    for (std::size_t n = 0; n < size(); ++n) {
+      const Vec3<double> rgb = seen((*this)[n]);
+      r_[n] = static_cast<float>(rgb[0]);
+      g_[n] = static_cast<float>(rgb[1]);
+      b_[n] = static_cast<float>(rgb[2]);
+    }
+  }
   void apply(const AppearanceParameters& parameters) {
     PixelRows rows;
     rows.r = r_.data(), rows.g = g_.data(), rows.b = b_.data(), rows.count = r_.size();
@@ -93,10 +102,11 @@ void fill_undefined(Lut3DStep& lut) {
 /// Its nodes hold positions on the same axes as its input does: where the operator changes nothing, neither
 /// does it.
 Lut3DStep core(const AppearanceParameters& p, const Axes& axes, const Matrix3<double>& abc_from_rgb,
-               std::size_t edge, const NightDisplayParameters* display = nullptr) {
+               std::size_t edge, const std::optional<Lamp>& lamp, const NightDisplayParameters* display) {
   const Matrix3<double> rgb_from_abc = inverse(abc_from_rgb);
   Nodes nodes(edge);
   nodes.fill([&](const Vec3<double>& t) { return rgb_from_abc * axes.colour(t); });
+  if (lamp) nodes.see_under(*lamp, p);
   nodes.apply(p);
   if (display) nodes.show(*display);
   Lut3DStep lut{edge, std::vector<double>(3 * nodes.size()), display ? 5 : 6};
@@ -145,7 +155,7 @@ MatrixStep normalised_differences(const Axes& axes) {
 
 /// The chain around a core; `gain`: of what comes out.
 Chain chain_of(const AppearanceParameters& p, const Axes& axes, std::size_t edge,
-               const NightDisplayParameters* display, double gain) {
+               const std::optional<Lamp>& lamp, const NightDisplayParameters* display, double gain) {
   const Matrix3<double> abc_from_rgb = p.white_luminance * (LookCoordinates::from_xyz() * p.xyz_from_rgb);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   // log2 a = log2 a/(a+b) + log2 (a+b)/(a+b+c) + log2 (a+b+c), and so on.
@@ -159,7 +169,7 @@ Chain chain_of(const AppearanceParameters& p, const Axes& axes, std::size_t edge
                  LogStep{LogStyle::log2},
                  normalised_differences(axes),
                  positions_table(axes),
-                 core(p, axes, abc_from_rgb, edge, display),
+                 core(p, axes, abc_from_rgb, edge, lamp, display),
                  logarithms_table(axes),
                  MatrixStep{sums_of_logarithms, {}},
                  LogStep{LogStyle::antilog2},
@@ -170,8 +180,8 @@ Chain chain_of(const AppearanceParameters& p, const Axes& axes, std::size_t edge
 
 }  // namespace
 
-Chain look_chain(const AppearanceParameters& p, std::size_t edge) {
-  return chain_of(p, Axes(p), edge, nullptr, 1);
+Chain look_chain(const AppearanceParameters& p, std::size_t edge, const std::optional<Lamp>& lamp) {
+  return chain_of(p, Axes(p), edge, lamp, nullptr, 1);
 }
 
 NightDisplayParameters of_scene(const AppearanceParameters& p, NightDisplayParameters display) noexcept {
@@ -181,12 +191,13 @@ NightDisplayParameters of_scene(const AppearanceParameters& p, NightDisplayParam
   return display;
 }
 
-Chain night_chain(const AppearanceParameters& p, const NightDisplayParameters& display, std::size_t edge) {
+Chain night_chain(const AppearanceParameters& p, const NightDisplayParameters& display, std::size_t edge,
+                  const std::optional<Lamp>& lamp) {
   const NightDisplayParameters shown = of_scene(p, display);
   const double scale = display_scale(shown);
   // White of luminance L has a level of 2 L (see LookCoordinates).
   const Axes axes(p, std::log2(2 * p.white_luminance / scale));
-  return chain_of(p, axes, edge, &shown, scale * shown.peak / display_white);
+  return chain_of(p, axes, edge, lamp, &shown, scale * shown.peak / display_white);
 }
 
 }  // namespace scotopic

@@ -42,11 +42,12 @@ std::string_view word(const Words& words, Enum value) {
   return words[0].name;
 }
 
+std::string vector_text(const Vec3<double>& v) {
+  return number_text(v[0]) + " " + number_text(v[1]) + " " + number_text(v[2]);
+}
+
 std::string matrix_text(const Matrix3<double>& m) {
-  std::string text;
-  for (const auto& row : m.rows)
-    for (const double x : row) text += (text.empty() ? "" : " ") + number_text(x);
-  return text;
+  return vector_text(m[0]) + " " + vector_text(m[1]) + " " + vector_text(m[2]);
 }
 
 /// key=value pairs of one line; any failure to read a value is remembered.
@@ -83,18 +84,28 @@ class Values {
     whole_ &= known;
   }
   void read(const std::string& key, Matrix3<double>& out) {
-    const std::string value = text(key);
-    const char* at = value.data();
-    const char* end = at + value.size();
-    for (auto& row : out.rows)
-      for (double& x : row) {
-        while (at < end && *at == ' ') ++at;
-        at = read_number(at, end, x);
-      }
-    whole_ &= at == end && std::abs(determinant(out)) > 1e-9;
+    std::array<double, 9> numbers{};
+    read(key, numbers);
+    for (std::size_t i = 0; i < numbers.size(); ++i) out[i / 3][i % 3] = numbers[i];
+    whole_ &= std::abs(determinant(out)) > 1e-9;
+  }
+  void read(const std::string& key, double low, double high, Vec3<double>& out) {
+    read(key, out);
+    for (const double x : out) whole_ &= x >= low && x <= high;
   }
 
  private:
+  template <std::size_t count>
+  void read(const std::string& key, std::array<double, count>& out) {
+    const std::string value = text(key);
+    const char* at = value.data();
+    const char* end = at + value.size();
+    for (double& x : out) {
+      while (at < end && *at == ' ') ++at;
+      at = read_number(at, end, x);
+    }
+    whole_ &= at == end;
+  }
   const char* read_number(const char* at, const char* end, double& out) {
     const auto result = std::from_chars(at, end, out);
     whole_ &= result.ec == std::errc() && std::isfinite(out);
@@ -122,6 +133,9 @@ std::string spec_text(const LookSpec& spec) {
       word(estimates, p.rods), number_text(p.sp_ratio), number_text(p.safko_scale), spec.edge,
       spec.encoded ? 1 : 0, spec.space, spec.gamut, matrix_text(p.xyz_from_rgb));
   if (p.xyz_from_gamut) text += "; xyz_from_gamut=" + matrix_text(*p.xyz_from_gamut);
+  if (spec.lamp)
+    text += fmt::format("; lamp={}; surround={}", vector_text(spec.lamp->white),
+                        number_text(spec.lamp->surround));
   if (const auto& d = spec.night)
     text += fmt::format(
         "; display={}; peak={}; viewing={}; visibility={}; strength_display={}; xyz_from_display={}",
@@ -161,6 +175,11 @@ std::optional<LookSpec> read_spec(std::string_view file) {
   values.read("xyz_from_rgb", p.xyz_from_rgb);
   if (line.find("; xyz_from_gamut=") != std::string_view::npos)
     values.read("xyz_from_gamut", p.xyz_from_gamut.emplace());
+  if (line.find("; lamp=") != std::string_view::npos) {
+    Lamp& lamp = spec.lamp.emplace();
+    values.read("lamp", 1e-12, 1e12, lamp.white);
+    values.read("surround", 0, 1, lamp.surround);
+  }
   if (line.find("; display=") != std::string_view::npos) {
     NightDisplayParameters& d = spec.night.emplace();
     spec.display = values.text("display");

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "stages/display/night_display.h"
+#include "stages/lamp/lamp.h"
 #include "stages/shared/parameters.h"
 
 namespace scotopic {
@@ -17,6 +18,7 @@ struct LookSpec {
   std::string space;              ///< colour space that RGB goes in and comes out in
   bool encoded = false;           ///< one 3D LUT over encoded RGB 0..1
   std::size_t edge = 33;
+  std::optional<Lamp> lamp = std::nullopt;                     ///< before the pixel stages; none: D65
   std::optional<NightDisplayParameters> night = std::nullopt;  ///< the display stage behind it
   std::string display;                                         ///< its primaries, as --gamut says such
 };

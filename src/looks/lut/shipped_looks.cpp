@@ -1,5 +1,9 @@
 #include "looks/lut/shipped_looks.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "stages/limits.h"
 #include "looks/lut/look_chain.h"
 #include "looks/lut/look_matrix.h"
@@ -16,11 +20,25 @@ bool is_identity(const AppearanceParameters& p) {
   return matrix && matrix->rows == identity3<double>().rows;
 }
 
+bool is_identity(const LookSpec& spec) { return !spec.lamp && is_identity(spec.parameters); }
+
 namespace {
 
-/// "0.1 nit (street lighting)".
-std::string adaptation_name(double adaptation) {
+/// " lamp 0.5266 0.4133".
+std::string lamp_name(const LookSpec& spec) {
+  if (!spec.lamp) return "";
+  const double surround = spec.lamp->surround;
+  return fmt::format(" lamp {:.4f} {:.4f}{}", spec.lamp->x(), spec.lamp->y(),
+                     surround == average_surround ? ""
+                     : surround == dim_surround   ? " dim"
+                                                  : " dark");
+}
+
+/// "0.1 nit (street lighting)", "0.1 nit lamp 0.5266 0.4133": menus have room for one of the two.
+std::string seen_name(const LookSpec& spec) {
+  const double adaptation = spec.parameters.adaptation;
   std::string name = adaptation_text(adaptation) + " nit";
+  if (spec.lamp) return name + lamp_name(spec);
   for (const NamedAdaptation& step : named_adaptations)
     if (step.adaptation == adaptation) name += " (" + std::string(step.scene) + ")";
   return name;
@@ -28,22 +46,36 @@ std::string adaptation_name(double adaptation) {
 
 }  // namespace
 
-std::string night_name(double adaptation) { return "Night " + adaptation_name(adaptation); }
+std::string lamp_stem(const LookSpec& spec) {
+  std::string stem = lamp_name(spec);
+  std::replace(stem.begin(), stem.end(), ' ', '_');
+  return stem;
+}
+
+std::string night_name(const LookSpec& spec) { return "Night " + seen_name(spec); }
 
 std::string night_file_stem(const LookSpec& spec) {
   const std::string peak = spec.night->peak == display_white ? "" : "_" + adaptation_text(spec.night->peak);
-  return "night_" + spec.display + peak + "_" + adaptation_text(spec.parameters.adaptation);
+  return "night_" + spec.display + peak + "_" + adaptation_text(spec.parameters.adaptation) + lamp_stem(spec);
 }
 
-std::string look_name(const AppearanceParameters& p) {
+std::string look_name(const LookSpec& spec) {
+  const AppearanceParameters& p = spec.parameters;
   const bool photopic = p.model != Model::safko2019 && !(p.adaptation < photopic_limit);
-  std::string name = (photopic ? "Photopic " : "Mesopic ") + adaptation_name(p.adaptation);
+  std::string name = (photopic ? "Photopic " : "Mesopic ") + seen_name(spec);
   if (p.model != Model::filament2021) name += " " + std::string(name_of(p.model));
   return name;
 }
 
-std::string look_file_stem(const AppearanceParameters& p) {
-  return std::string(name_of(p.model)) + "_" + adaptation_text(p.adaptation);
+std::string look_name(const AppearanceParameters& p) {
+  LookSpec spec;
+  spec.parameters = p;
+  return look_name(spec);
+}
+
+std::string look_file_stem(const LookSpec& spec) {
+  const AppearanceParameters& p = spec.parameters;
+  return std::string(name_of(p.model)) + "_" + adaptation_text(p.adaptation) + lamp_stem(spec);
 }
 
 }  // namespace scotopic

@@ -33,7 +33,7 @@ void judge(Inspected& it) {
     it.problems.push_back(
         fmt::format("largest error {:.3g} exceeds the {:.3g} it states", it.error->max, *it.stated));
   if (!it.stated) it.problems.push_back("states no error");
-  if (it.spec && !it.spec->night && is_identity(it.spec->parameters))
+  if (it.spec && !it.spec->night && is_identity(*it.spec))
     return;  // passes everything on, NaN too: so does the operator
   if (it.odd.not_finite > 0)
     it.problems.push_back(fmt::format("{} components come out not finite", it.odd.not_finite));
@@ -43,14 +43,11 @@ void judge(Inspected& it) {
 
 void measure(Inspected& it, const OCIO::ConstCPUProcessorRcPtr& processor, const ColourConfig& config) {
   it.odd = odd_pixels(processor);
-  const AppearanceParameters& p = it.spec->parameters;
   if (it.spec->encoded)
     it.cube = measure_cube(
         *it.spec, config,
         {lut_processor(it.file, OCIO::INTERP_TETRAHEDRAL), lut_processor(it.file, OCIO::INTERP_LINEAR)});
-  it.error = it.cube          ? it.cube->rec709.by_reading[0]
-             : it.spec->night ? measure_night(p, *it.spec->night, processor, p.xyz_from_rgb)
-                              : measure_bake(p, processor, p.xyz_from_rgb);
+  it.error = it.cube ? it.cube->rec709.by_reading[0] : measure_look(*it.spec, processor);
   judge(it);
 }
 

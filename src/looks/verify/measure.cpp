@@ -123,6 +123,18 @@ Colours exact(const AppearanceParameters& parameters, Colours colours) {
   return colours;
 }
 
+Colours seen_under(const std::optional<Lamp>& lamp, const AppearanceParameters& parameters, Colours c) {
+  if (!lamp) return c;
+  const LampOnRgb seen(*lamp, parameters);
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    const Vec3<double> rgb = seen({c.r[i], c.g[i], c.b[i]});
+    c.r[i] = static_cast<float>(rgb[0]);
+    c.g[i] = static_cast<float>(rgb[1]);
+    c.b[i] = static_cast<float>(rgb[2]);
+  }
+  return c;
+}
+
 Colours exact_night(const AppearanceParameters& parameters, const NightDisplayParameters& display,
                     Colours colours) {
   colours = exact(parameters, std::move(colours));
@@ -137,20 +149,21 @@ void apply(const OCIO::ConstCPUProcessorRcPtr& processor, Colours& c) {
 }
 
 BakeError measure_bake(const AppearanceParameters& parameters, const OCIO::ConstCPUProcessorRcPtr& processor,
-                       const Matrix3<double>& xyz_from_gamut, std::size_t count) {
+                       const Matrix3<double>& xyz_from_gamut, std::size_t count,
+                       const std::optional<Lamp>& lamp) {
   const Colours in = stop_colours(count, xyz_from_gamut, parameters.xyz_from_rgb);
   Colours got = in;
   apply(processor, got);
   Comparison comparison(parameters.xyz_from_rgb);
-  comparison.add(in, exact(parameters, in), got);
+  comparison.add(in, exact(parameters, seen_under(lamp, parameters, in)), got);
   return comparison.result();
 }
 
 BakeError measure_night(const AppearanceParameters& p, const NightDisplayParameters& display,
                         const OCIO::ConstCPUProcessorRcPtr& processor, const Matrix3<double>& xyz_from_gamut,
-                        std::size_t count) {
+                        std::size_t count, const std::optional<Lamp>& lamp) {
   const Colours in = stop_colours(count, xyz_from_gamut, p.xyz_from_rgb);
-  Colours got = in, expected = exact_night(p, display, in);
+  Colours got = in, expected = exact_night(p, display, seen_under(lamp, p, in));
   apply(processor, got);
   // In units of 100 cd/m2, both.
   for (auto* plane : {&expected.r, &expected.g, &expected.b})
@@ -158,6 +171,13 @@ BakeError measure_night(const AppearanceParameters& p, const NightDisplayParamet
   Comparison comparison(p.xyz_from_rgb, display.peak > display_white ? itp_difference : shown_difference);
   comparison.add(in, expected, got);
   return comparison.result();
+}
+
+BakeError measure_look(const LookSpec& spec, const OCIO::ConstCPUProcessorRcPtr& processor) {
+  const AppearanceParameters& p = spec.parameters;
+  constexpr std::size_t count = 100000;
+  if (spec.night) return measure_night(p, *spec.night, processor, p.xyz_from_rgb, count, spec.lamp);
+  return measure_bake(p, processor, p.xyz_from_rgb, count, spec.lamp);
 }
 
 OddPixels odd_pixels(const OCIO::ConstCPUProcessorRcPtr& processor) {

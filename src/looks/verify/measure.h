@@ -4,13 +4,13 @@
 #include <OpenColorIO/OpenColorIO.h>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "batch/batch.h"
-#include "stages/display/night_display.h"
-#include "stages/shared/parameters.h"
+#include "looks/lut/look_spec.h"
 
 namespace scotopic {
 
@@ -76,13 +76,17 @@ class Comparison {
 /// The operator's result, float rounded from double.
 Colours exact(const AppearanceParameters& parameters, Colours colours);
 
+/// Light as the eye sees it that is used to the lamp; as it comes where there is none.
+Colours seen_under(const std::optional<Lamp>& lamp, const AppearanceParameters& parameters, Colours colours);
+
 /// Through an OCIO processor, in place.
 void apply(const OCIO_NAMESPACE::ConstCPUProcessorRcPtr& processor, Colours& colours);
 
 /// exact() against the processor on 1e5 stop_colours of a gamut.
 BakeError measure_bake(const AppearanceParameters& parameters,
                        const OCIO_NAMESPACE::ConstCPUProcessorRcPtr& processor,
-                       const Matrix3<double>& xyz_from_gamut, std::size_t count = 100000);
+                       const Matrix3<double>& xyz_from_gamut, std::size_t count = 100000,
+                       const std::optional<Lamp>& lamp = std::nullopt);
 
 /// The operator and the display stage behind it; linear light of the display in the RGB that goes in, 1 = its
 /// peak.
@@ -94,7 +98,11 @@ Colours exact_night(const AppearanceParameters& parameters, const NightDisplayPa
 /// BT.2124).
 BakeError measure_night(const AppearanceParameters& parameters, const NightDisplayParameters& display,
                         const OCIO_NAMESPACE::ConstCPUProcessorRcPtr& processor,
-                        const Matrix3<double>& xyz_from_gamut, std::size_t count = 100000);
+                        const Matrix3<double>& xyz_from_gamut, std::size_t count = 100000,
+                        const std::optional<Lamp>& lamp = std::nullopt);
+
+/// The look of `spec`, a linear one, on colours of the gamut that it takes: by either of the above.
+BakeError measure_look(const LookSpec& spec, const OCIO_NAMESPACE::ConstCPUProcessorRcPtr& processor);
 
 /// Pixels with NaN, infinities, negatives and denormals in every place: how many components come out not
 /// finite, and whether alpha kept its bits.

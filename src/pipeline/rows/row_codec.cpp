@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "stages/lamp/lamp.h"
 #include "stages/limits.h"
 #include "io/pixels/copy_pixels.h"
 #include "pipeline/rows/dither.h"
@@ -155,27 +156,18 @@ void apply_matrices(const LightMatrices& matrices, bool receptors, LightRow& lig
     return std::max({std::abs(a), std::abs(b), std::abs(c)}) <= static_cast<float>(operable_limit) &&
            a == a && b == b && c == c;
   };
-  const auto times = [](const Matrix3<double>& m, float& a, float& b, float& c) {
-    const Vec3<double> out = m * Vec3<double>{a, b, c};
-    a = static_cast<float>(out[0]), b = static_cast<float>(out[1]), c = static_cast<float>(out[2]);
-  };
-  const Vec3<double>& y = matrices.luminance;
-  // What leaves the gamut fades to its own grey until it is as far outside as it came in.
-  const auto recolour = [&](float& r, float& g, float& b) {
-    const double floor = std::min(0.0, double{std::min({r, g, b})});
-    times(matrices.rgb, r, g, b);
-    const double least = double{std::min({r, g, b})};
-    const double grey = y[0] * double{r} + y[1] * double{g} + y[2] * double{b};
-    if (!(least < floor) || !(grey > floor)) return;
-    const double keep = (grey - floor) / (grey - least);
-    for (float* const c : {&r, &g, &b}) *c = static_cast<float>(grey + keep * (double{*c} - grey));
+  const auto set = [](const Vec3<double>& to, float& a, float& b, float& c) {
+    a = static_cast<float>(to[0]), b = static_cast<float>(to[1]), c = static_cast<float>(to[2]);
   };
   light.changed.resize(light.r.size(), 0);
   for (std::size_t i = 0; i < light.r.size(); ++i) {
     if (!operable(light.r[i], light.g[i], light.b[i])) continue;
     if (receptors && !operable(light.cone_l[i], light.cone_m[i], light.cone_s[i])) continue;
-    recolour(light.r[i], light.g[i], light.b[i]);
-    if (receptors) times(matrices.lms, light.cone_l[i], light.cone_m[i], light.cone_s[i]);
+    const Vec3<double> in = {light.r[i], light.g[i], light.b[i]};
+    set(faded(matrices.rgb * in, in, matrices.luminance), light.r[i], light.g[i], light.b[i]);
+    if (receptors)
+      set(matrices.lms * Vec3<double>{light.cone_l[i], light.cone_m[i], light.cone_s[i]}, light.cone_l[i],
+          light.cone_m[i], light.cone_s[i]);
     light.changed[i] = 1;
   }
 }

@@ -1,4 +1,4 @@
-// Stage `lamp`, described: adaptation/chromatic_adaptation.h computes it.
+// Stage `lamp`, described: stages/lamp/lamp.h computes it.
 #pragma once
 
 #include "stages/description.h"
