@@ -121,7 +121,8 @@ struct RowSight {
   /// The row as the pixel stages saw it, receptors' signals included where the file has them; no pixels where
   /// the stage does not ask.
   PixelRows scene;
-  RowMemory* memory = nullptr;  ///< what memory() made for this thread: rows come whole, and downwards
+  /// What memory() made, for this thread alone: rows come whole, eight and more downwards at a time.
+  RowMemory* memory = nullptr;
 };
 
 /// A stage of single pixels. Immutable: any number of threads. Results must not depend on how pixels are

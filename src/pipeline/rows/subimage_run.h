@@ -11,6 +11,7 @@
 #include "pipeline/apply_image.h"
 #include "pipeline/rows/acuity_rows.h"
 #include "pipeline/rows/row_codec.h"
+#include "pipeline/rows/spares.h"
 
 namespace scotopic {
 
@@ -73,6 +74,7 @@ class SubimageRun {
   bool whole_rows_ = false;          // for stages after the filters that look at the scene
   std::vector<std::size_t> others_;  // channel of the source for each output channel after R, G, B
   mutable NonFiniteTally tally_;
+  mutable Spares<Room> rooms_;  // for whole rows: what stages remember of a row serves the next chunk's, too
 };
 
 }  // namespace scotopic
