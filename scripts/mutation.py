@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Mutation check: does the short test suite notice each fault of scripts/mutants.txt?
 
-Copies the last commit, applies one fault after the other, builds, and runs the tests of kernel, adaptation, stages and batch
-and the properties, stopping at the first that fails. Prints the score and the survivors; exits 1 below 95 %.
+Copies the last commit, applies one fault after the other, builds, and runs the tests of the fault's own room and of those
+above it (kernel, adaptation, stages, batch, the properties), stopping at the first that fails. Prints the score and the survivors; exits 1 below 95 %.
 
   scripts/mutation.py [--work DIR] [--jobs N] [--only REGEX] [--check]
 
@@ -22,9 +22,11 @@ import tempfile
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-# The tests that know a room best come first: most faults never see the slow ones.
-ALL_TESTS = ["kernel", "adaptation", "stages", "batch", "properties"]
-TESTS_OF = {"src/kernel": ALL_TESTS, "src/adaptation": ALL_TESTS[1:], "src/stages": ALL_TESTS[2:], "src/batch": ALL_TESTS[3:]}
+# The tests that know a room best come first: most faults never see the slow ones. Of a path the longest that fits.
+CHAIN = ["kernel", "adaptation", "stages", "batch", "properties"]
+TESTS_OF = {"src/kernel": CHAIN, "src/adaptation": CHAIN[1:], "src/stages": CHAIN[2:], "src/batch": CHAIN[3:],
+            "src/adaptation/time": ["adaptation"], "src/stages/noise": ["noise", "batch"], "src/stages/contrast": ["contrast"],
+            "src/stages/glare": ["glare"], "src/stages/display": ["batch"], "src/stages/display/local": ["display"]}
 THRESHOLD = 0.95
 # One SIMD target: that targets agree is tested elsewhere, and each costs time to compile. One of several lanes, SSE4 (for
 # Highway SSE4.2, AES and PCLMUL): else it would be the scalar one, in which no pixel has neighbours.
@@ -58,6 +60,10 @@ def read_mutants():
         old, _, new = rest.partition(" ==>")
         mutants.append((path, old.strip(), new.strip(), line))
     return mutants
+
+
+def tests_of(path):
+    return TESTS_OF[max((room for room in TESTS_OF if path.startswith(room + "/")), key=len)]
 
 
 def copy_tree(to):
@@ -132,12 +138,13 @@ def main():
     copy_tree(tree)
     suite = Suite(work, tree, options.jobs)
     started = time.time()
-    killer = suite.killer(ALL_TESTS)
+    all_tests = list(dict.fromkeys(test for path, *_ in mutants for test in tests_of(path)))
+    killer = suite.killer(all_tests)
     if killer:
         print("the suite fails without a fault:", killer)
         return 1
     print(f"without a fault all pass ({time.time() - started:.0f} s)", flush=True)
-    killed, survivors, invalid = {test: 0 for test in ALL_TESTS}, [], []
+    killed, survivors, invalid = {test: 0 for test in all_tests}, [], []
     noticed = work / "noticed.txt"
     earlier = dict(x.split("\t", 1)[::-1] for x in noticed.read_text().splitlines()) if noticed.exists() else {}
     for number, (path, old, new, line) in enumerate(mutants, 1):
@@ -148,7 +155,7 @@ def main():
         text = file.read_text()
         file.write_text(text.replace(old, new))
         started = time.time()
-        killer = suite.killer(TESTS_OF[str(pathlib.Path(path).parent)])
+        killer = suite.killer(tests_of(path))
         file.write_text(text)
         print(f"{number}/{len(mutants)} {killer or 'SURVIVED'} ({time.time() - started:.0f} s): {line}", flush=True)
         if killer == "build":

@@ -13,10 +13,10 @@ namespace scotopic {
 namespace glare {
 namespace {
 
-constexpr int side = 16;                     // of a block, pixels
-constexpr double unseen = 0.01;              // a relative change that nobody sees
-constexpr double dark = 1e-3;                // of the threshold: what the display shows as black
-constexpr double shipped_look_error = 1.03;  // the ladder's weights over those of the function, at most
+constexpr int side = 16;               // of a block, pixels
+constexpr double unseen = 0.01;        // a relative change that nobody sees
+constexpr double dark = 1e-3;          // of the threshold: what the display shows as black
+constexpr double ladder_error = 1.03;  // the ladder's weights over those of the function, at most
 constexpr std::size_t most_pairs = std::size_t{1} << 22;
 
 using Weights = std::array<double, 3>;
@@ -175,7 +175,7 @@ Bound::Bound(const Plan& plan, const Blocks& blocks)
   const GlareGrid& g = plan.parameters.grid;
   const double nearest = std::max(pixel_weight(plan, 1, 0), pixel_weight(plan, 0, 1));
   const double radians = std::acos(-1.0) / 180;
-  const double scale = shipped_look_error * g.strength * radians * radians / (g.ppd_x * g.ppd_y);
+  const double scale = ladder_error * g.strength * radians * radians / (g.ppd_x * g.ppd_y);
   const double half_pixel = std::hypot(0.5 / g.ppd_x, 0.5 / g.ppd_y);
   for (int y = 0; y < blocks.rows; ++y)
     for (int x = 0; x < blocks.columns; ++x) {
