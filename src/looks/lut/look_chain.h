@@ -23,7 +23,8 @@ inline constexpr double look_limit = 65504;
 /// The 3D part is in cd/m2 and knows nothing of white_luminance, which sits in the matrices alone: as a
 /// function of the adaptation luminance there is one for each. Black is black, exactly; so is every colour
 /// that AP1 does not hold clamped to its border, continuously. `edge` is 2^k + 1, 17 to 129. What the eye's
-/// being used to `lamp` makes of light is in the 3D part, too: it is no matrix where colours fade.
+/// being used to `lamp` makes of light is in the 3D part, too: it is no matrix where colours fade, and one
+/// before the clamp would clip those to AP1 instead (CIEDE2000 40).
 Chain look_chain(const AppearanceParameters& parameters, std::size_t edge,
                  const std::optional<Lamp>& lamp = std::nullopt);
 
