@@ -151,6 +151,32 @@ TEST(DarkAdaptation, the_slow_product_follows_its_own_exponential) {
   EXPECT_NEAR(state_after(state, low, 60).rod_product, 0.46736682699656, 1e-13);
 }
 
+// Pattanaik et al. 2000: after their time constants a 1/e of the way is left.
+TEST(DarkAdaptation, nerves_of_rods_and_cones_follow_light_each_in_its_own_time) {
+  const AdaptationState before = {0, 0, 0, 3, 5};
+  EXPECT_NEAR(state_after(before, 1, 0.15).rod_neural, 1 + 2 * std::exp(-1.0), 1e-14);
+  EXPECT_NEAR(state_after(before, 1, 0.08).cone_neural, 1 + 4 * std::exp(-1.0), 1e-14);
+}
+
+// Out of the dark nothing is bleached yet: that makes rods no more sensitive than La has them.
+TEST(DarkAdaptation, less_bleaching_than_light_keeps_up_counts_as_none) {
+  for (const double luminance : {1.0, 1e3, 1e5}) {
+    const AdaptationThresholds t = thresholds_of({0, 0, 0, luminance, luminance}, luminance);
+    EXPECT_EQ(t.rod_luminance, luminance);
+    EXPECT_EQ(t.cone_luminance, luminance);
+    EXPECT_EQ(t.exposure, 1);
+  }
+}
+
+TEST(DarkAdaptation, between_frames_the_eye_is_in_the_mean_of_their_light) {
+  const AdaptationState first = adapted_state(0.1);
+  const auto states = track_states(first, std::array{1.0, 100.0, 20.0}, 24);
+  ASSERT_EQ(states.size(), 3u);
+  EXPECT_EQ(states[0], first);
+  EXPECT_EQ(states[1], state_after(first, 50.5, 1.0 / 24));
+  EXPECT_EQ(states[2], state_after(states[1], 60, 1.0 / 24));
+}
+
 TEST(DarkAdaptation, frames_add_up_to_one_step) {
   double worst = 0;
   for (const double luminance : {0.0, 1e-4, 0.01, 1.0, 100.0, 1e4})
