@@ -132,15 +132,15 @@ TEST(LampStage, adapts_cones_signals_of_a_file_and_leaves_its_rods) {
     const Vec3<double> expected = reference({seen, cones, rod[i]});
     const Vec3<double> other = reference({seen, cones, 0.5 * rod[i]});
     const Vec3<double> got = {r[i], g[i], b[i]};
-    const double size = std::max({std::abs(as_it_came[0]), std::abs(as_it_came[1]), std::abs(as_it_came[2]),
-                                  std::abs(seen[0]), std::abs(seen[1]), std::abs(seen[2])});
+    double size = rod[i];
+    for (const Vec3<double>& v : {as_it_came, seen, cones, expected})
+      for (const double x : v) size = std::max(size, std::abs(x));
     for (std::size_t c = 0; c < 3; ++c) {
       worst = std::max(worst, std::abs(got[c] - expected[c]) / size);
       of_rods = std::max(of_rods, std::abs(other[c] - expected[c]) / size);
     }
   }
-  std::printf("lamp on LMSR: worst %.2g of the largest component; rods halved would be %.2g\n", worst,
-              of_rods);
+  std::printf("lamp on LMSR: worst %.2g of the largest number; rods halved would be %.2g\n", worst, of_rods);
   EXPECT_LE(worst, 1e-5);
   EXPECT_GE(of_rods, 0.01);
 }
