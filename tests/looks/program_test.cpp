@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "color/primaries.h"
+#include "io/pixel_source.h"
+#include "io/pixels/pixel_type.h"
 #include "looks/support.h"
 #include "cli/run_program.h"
+#include "stages/shared/colour_difference.h"
 
 namespace scotopic {
 namespace {
@@ -122,6 +126,77 @@ TEST_F(Bake, a_look_that_calls_for_nothing_is_a_no_op_and_one_of_chroma_alone_a_
     const Outcome checked = run_program({"check", file, "--max-error", "0.001"});
     EXPECT_EQ(checked.exit_code, 0) << checked.out << checked.err;
   }
+}
+
+/// R, G, B of a file's first row.
+std::vector<Vec3<double>> row_of(const std::string& file) {
+  const auto source = open_source(file, Limits{});
+  Band band;
+  source->read(0, 0, 1, band);
+  std::vector<Vec3<double>> out(static_cast<std::size_t>(band.width));
+  std::vector<float> row(out.size());
+  const auto& channels = source->subimages()[0].channels;
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    const std::size_t place = std::string("RGB").find(channels[c].name);
+    if (place == std::string::npos) continue;
+    load_row(band.channels[c].row(0), row.size(), row.data());
+    for (std::size_t i = 0; i < row.size(); ++i) out[i][place] = row[i];
+  }
+  return out;
+}
+
+TEST_F(Bake, a_look_holds_the_lamp_that_apply_is_told) {
+  const std::vector<std::string> eye = {"--adaptation", "0.1", "--white-luminance", "1",
+                                        "--illuminant", "hps", "--adapt-white",     "lamp"};
+  const std::string look = folder_.path("hps.clf"), in = folder_.path("in.exr"),
+                    out = folder_.path("out.exr");
+  std::vector<std::string> bake = {"bake", "--size", "65", "-o", look}, apply = {"apply", in, "-o", out};
+  bake.insert(bake.end(), eye.begin(), eye.end());
+  apply.insert(apply.end(), eye.begin(), eye.end());
+  apply.insert(apply.end(), {"--effects", "shift,luminance,chroma"});
+  ASSERT_EQ(run_program(bake).exit_code, 0);
+  EXPECT_NE(test::read_text(look).find("of the colour of a lamp"), std::string::npos);
+  EXPECT_EQ(run_program({"check", look}).exit_code, 0);
+  test::write_picture(in, 512, 8);
+  ASSERT_EQ(run_program(apply).exit_code, 0);
+  const OCIO::FileTransformRcPtr transform = OCIO::FileTransform::Create();
+  transform->setSrc(look.c_str());
+  transform->setInterpolation(OCIO::INTERP_TETRAHEDRAL);
+  const auto processor = OCIO::Config::CreateRaw()->getProcessor(transform)->getDefaultCPUProcessor();
+  const Matrix3<double> xyz = gamut_xyz_matrix("rec709").value();
+  const std::vector<Vec3<double>> came = row_of(in), seen = row_of(out);
+  double sum = 0, worst = 0, moved = 0;
+  for (std::size_t i = 0; i < came.size(); ++i) {
+    float pixel[3] = {static_cast<float>(came[i][0]), static_cast<float>(came[i][1]),
+                      static_cast<float>(came[i][2])};
+    processor->applyRGB(pixel);
+    const double d = exposed_difference(xyz * seen[i], xyz * Vec3<double>{pixel[0], pixel[1], pixel[2]});
+    sum += d;
+    worst = std::max(worst, d);
+    moved = std::max(moved, exposed_difference(xyz * seen[i], xyz * came[i]));
+  }
+  const double mean = sum / static_cast<double>(came.size());
+  std::printf("look against apply, sodium: mean %.3f, max %.3f; the lamp moves up to %.1f\n", mean, worst,
+              moved);
+  EXPECT_LE(mean, 0.2);
+  EXPECT_LE(worst, 2.5);
+  EXPECT_GE(moved, 3);
+}
+
+TEST_F(Bake, d65_is_no_lamp_and_a_shader_has_none) {
+  const std::vector<std::string> plain = {"bake", "--adaptation", "0.1", "--size", "17", "-o"};
+  std::vector<std::string> a = plain, b = plain;
+  a.push_back(folder_.path("a.clf"));
+  b.insert(b.end(), {folder_.path("b.clf"), "--adapt-white", "0.3127,0.3290"});
+  ASSERT_EQ(run_program(a).exit_code, 0);
+  ASSERT_EQ(run_program(b).exit_code, 0);
+  EXPECT_TRUE(test::read_text(folder_.path("a.clf")) == test::read_text(folder_.path("b.clf")));
+  const Outcome refused =
+      run_program({"bake", "--shader", "glsl", "--adapt-white", "0.5266,0.4133", "--colorspace",
+                   "Linear Rec.709 (sRGB)", "-o", folder_.path("x.glsl")});
+  EXPECT_EQ(refused.exit_code, 2) << refused.err;
+  EXPECT_NE(refused.err.find("not in a shader"), std::string::npos) << refused.err;
+  EXPECT_FALSE(fs::exists(folder_.path("x.glsl")));
 }
 
 TEST_F(Bake, several_luminances_get_a_file_each) {
