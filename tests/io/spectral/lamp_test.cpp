@@ -1,6 +1,7 @@
 // An eye that is used to the lamp, on spectra: white under the lamp goes to grey as far as CIECAM02 says.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
