@@ -11,11 +11,13 @@ install(FILES README.md CHANGELOG.md DESTINATION ${doc}/scotopic)
 install(FILES LICENSE DESTINATION ${doc}/scotopic RENAME copyright)
 install(FILES LICENSE DESTINATION ${doc}/libscotopic-dev RENAME copyright COMPONENT library)
 
-install(TARGETS scotopic_core scotopic_image scotopic_ocio EXPORT ScotopicTargets
+install(TARGETS scotopic_core scotopic_image scotopic_ocio scotopic_host EXPORT ScotopicTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library)
-install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/scotopic COMPONENT library
-  FILES_MATCHING PATTERN "*.h" PATTERN "cli" EXCLUDE PATTERN "*-inl.h" EXCLUDE)
+# What others may include; all else may change without a word.
+configure_file(src/scotopic/version.h.in ${PROJECT_BINARY_DIR}/include/scotopic/version.h @ONLY)
+install(DIRECTORY src/scotopic/ ${PROJECT_BINARY_DIR}/include/scotopic/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/scotopic
+  COMPONENT library FILES_MATCHING PATTERN "*.h")
 install(EXPORT ScotopicTargets NAMESPACE scotopic:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Scotopic
   COMPONENT library)
 configure_package_config_file(cmake/ScotopicConfig.cmake.in ${PROJECT_BINARY_DIR}/ScotopicConfig.cmake

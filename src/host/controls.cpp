@@ -1,4 +1,4 @@
-#include "host/controls.h"
+#include "scotopic/controls.h"
 
 #include <fmt/format.h>
 

@@ -49,6 +49,18 @@ bool is_metered(const ImageSettings& s, const MemoryJob& job) {
   return !job.adaptation && !s.choice.adaptation;
 }
 
+/// What bake shares with apply.
+BakeOptions bake_options(const ApplyOptions& options) {
+  BakeOptions out;
+  out.appearance = options.scene.appearance;
+  out.adaptations = {out.appearance.adaptation};
+  out.colourspace = options.scene.image.colourspace;
+  out.colour_config = options.scene.image.config;
+  out.working_primaries = options.scene.image.working_primaries;
+  out.limits = options.scene.image.limits;
+  return out;
+}
+
 /// Nothing after the stages, nor the way there, changes a value.
 bool values_stay(const ImageSettings& s) {
   const ImageRequest& r = s.request;
@@ -97,17 +109,18 @@ bool HostOperator::looks_around(const MemoryJob& job) const {
 
 nlohmann::ordered_json HostOperator::bake(const std::string& path, const std::string& size,
                                           const std::string& max_error, const Notes& notes) const {
-  BakeOptions o;
-  o.appearance = options_.scene.appearance;
-  o.adaptations = {o.appearance.adaptation};
+  BakeOptions o = bake_options(options_);
   o.output = path;
   o.size = size;
   o.max_error = max_error;
-  o.colourspace = options_.scene.image.colourspace;
-  o.colour_config = options_.scene.image.config;
-  o.working_primaries = options_.scene.image.working_primaries;
-  o.limits = options_.scene.image.limits;
   return bake_luts(o, Console(o.common, [&](const std::string& line) { notes.note(line); }));
+}
+
+std::string HostOperator::shader(const std::string& language) const {
+  BakeOptions o = bake_options(options_);
+  o.shader = language;
+  o.display = options_.display.display;
+  return shader_text_of(o);
 }
 
 }  // namespace scotopic

@@ -31,6 +31,9 @@ class HostOperator {
   /// empty. Returns what bake --json says. Needs an adaptation.
   nlohmann::ordered_json bake(const std::string& path, const std::string& size, const std::string& max_error,
                               const Notes& notes) const;
+  /// The pixel stages, and with parameter display night its stage, as the text of a shader: dctl, glsl,
+  /// blink, hlsl, osl, as `scotopic bake --shader` writes it.
+  std::string shader(const std::string& language) const;
 
   const ImageSettings& settings() const noexcept { return settings_; }
 

@@ -1,29 +1,10 @@
-// The operator's parameters as hosts give them: by name, each a text in the words of the program's options.
-// Names, groups, defaults and sentences are those of the options of apply.
+// Parameters by name, as the program's options.
 #pragma once
 
-#include <map>
-#include <string>
-#include <vector>
-
 #include "cli/scene/apply_settings.h"
+#include "scotopic/parameters.h"
 
 namespace scotopic {
-
-/// "white_luminance" -> "10", as --white-luminance 10. What is not there has its default.
-using Parameters = std::map<std::string, std::string>;
-
-/// One that a host may give.
-struct ParameterInfo {
-  std::string name;      ///< of an option, without dashes in front, _ for -
-  std::string option;    ///< as the program has it
-  std::string group;     ///< its heading in the help
-  std::string takes;     ///< a word for what it takes: CDM2, X, NAME ...
-  std::string sentence;  ///< what it does
-};
-
-/// All of them, in the order of the help. Options about files, parts of files, and limits of them are none.
-const std::vector<ParameterInfo>& parameter_list();
 
 /// The options with these values. Error(usage) for a name that is none, and for values that exclude each
 /// other.

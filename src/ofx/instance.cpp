@@ -8,7 +8,7 @@
 
 #include "adaptation/time/dark_adaptation.h"
 #include "base/error.h"
-#include "host/controls.h"
+#include "scotopic/controls.h"
 #include "ofx/image.h"
 
 namespace scotopic::ofx {

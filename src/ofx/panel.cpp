@@ -10,7 +10,7 @@
 #include "adaptation/named_adaptations.h"
 #include "base/error.h"
 #include "color/colour_config.h"
-#include "host/controls.h"
+#include "scotopic/controls.h"
 #include "ofx/suites.h"
 #include "pipeline/stages/stage_values.h"
 

@@ -87,6 +87,11 @@ std::string bake(const HostOperator& op, const std::string& path, const std::str
   return op.bake(path, size, max_error, {}).dump();
 }
 
+std::string shader(const HostOperator& op, const std::string& language) {
+  const py::gil_scoped_release others_may_run;
+  return op.shader(language);
+}
+
 std::vector<py::tuple> parameters() {
   std::vector<py::tuple> out;
   for (const ParameterInfo& p : parameter_list())
@@ -124,7 +129,8 @@ void add_operator(py::module_& m) {
       .def("apply", apply)
       .def("explain", explain)
       .def("plan", plan)
-      .def("bake", bake);
+      .def("bake", bake)
+      .def("shader", shader);
 }
 
 }  // namespace

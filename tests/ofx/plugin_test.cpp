@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "cli/run_program.h"
-#include "host/controls.h"
+#include "scotopic/controls.h"
 #include "ofx/host.h"
 #include "support/exr_files.h"
 

@@ -126,6 +126,16 @@ class Words(unittest.TestCase):
             with self.assertRaises(OSError):
                 scotopic.Operator(adaptation=0.01).bake(f"{folder}/no/such/folder/c.clf", size=17)
 
+    def test_a_shader_is_the_programs_text(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for language, parameters in (("dctl", dict(adaptation=0.01)), ("glsl", dict(adaptation="street", strength=0.5))):
+                expected = f"{folder}/s.txt"
+                done = program.run("bake", "--shader", language, "-o", expected, *program.options(parameters))
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(scotopic.Operator(**parameters).shader(language), pathlib.Path(expected).read_text())
+        with self.assertRaisesRegex(ValueError, "--shader: 'cg' is not one of"):
+            scotopic.Operator(adaptation=0.01).shader("cg")
+
     def test_parameters_are_those_of_the_programs_help(self):
         words = set(re.findall(r"--([a-z0-9-]+)", program.run("apply", "--help").stdout))
         names = [p.name for p in scotopic.parameters()]

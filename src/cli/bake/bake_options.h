@@ -67,6 +67,8 @@ int bake_config(const BakeOptions& o, const Console& console);
 int bake_into(const BakeOptions& o, const Console& console);
 /// Error(usage) for what makes no sense with --shader.
 void check_shader_options(const BakeOptions& o);
+/// The text that bake --shader writes.
+std::string shader_text_of(const BakeOptions& o);
 /// bake --shader LANGUAGE.
 int bake_shader(const BakeOptions& o, const Console& console);
 

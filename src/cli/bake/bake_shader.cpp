@@ -53,6 +53,10 @@ ShaderSpec shader_spec(const BakeOptions& o, const ColourConfig& config) {
   return spec;
 }
 
+ColourConfig config_of(const BakeOptions& o) {
+  return ColourConfig::in_force(o.colour_config, o.limits, working_primaries(o.working_primaries));
+}
+
 void refuse_options_of_luts(const BakeOptions& o) {
   const BakeOptions usual;
   for (const auto& [option, given] :
@@ -74,10 +78,13 @@ void check_shader_options(const BakeOptions& o) {
   (void)adaptation_of(o);
 }
 
+std::string shader_text_of(const BakeOptions& o) {
+  check_shader_options(o);
+  return shader_text(shader_spec(o, config_of(o)), language_of(o));
+}
+
 int bake_shader(const BakeOptions& o, const Console& console) {
-  const ColourConfig config =
-      ColourConfig::in_force(o.colour_config, o.limits, working_primaries(o.working_primaries));
-  const ShaderSpec spec = shader_spec(o, config);
+  const ShaderSpec spec = shader_spec(o, config_of(o));
   const std::string text = shader_text(spec, language_of(o));
   OutputSet set;
   OutputFile& file = set.open(o.output);

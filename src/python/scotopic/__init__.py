@@ -231,6 +231,15 @@ class Operator:
         text = "" if max_error is None else _text(max_error)
         return _json.loads(self._core("float32").bake(_text(path), _text(size), text))
 
+    def shader(self, language):
+        """The pixel stages, exact, as the text of a shader: dctl, glsl, blink, hlsl or osl; with display="night" that
+        stage too. As `scotopic bake --shader` writes it: adaptation, white luminance and strengths are sliders.
+
+        >>> "void" in Operator(adaptation="moon").shader("glsl") or "vec3" in Operator(adaptation=1).shader("glsl")
+        True
+        """
+        return self._core("float32").shader(_text(language))
+
 
 def _operator(parameters):
     return Operator(**parameters)
