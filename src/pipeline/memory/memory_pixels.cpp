@@ -1,6 +1,7 @@
 #include "pipeline/memory/memory_pixels.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace scotopic {
