@@ -49,6 +49,10 @@ bool is_metered(const ImageSettings& s, const MemoryJob& job) {
   return !job.adaptation && !s.choice.adaptation;
 }
 
+bool is_adapting(const ImageSettings& s, const MemoryJob& job) {
+  return !s.time.history.empty() || (job.adaptation && job.adaptation->state);
+}
+
 /// What bake shares with apply.
 BakeOptions bake_options(const ApplyOptions& options) {
   BakeOptions out;
@@ -92,8 +96,7 @@ SceneReport HostOperator::plan(const MemoryJob& job, const Notes& notes) const {
 }
 
 bool HostOperator::changes_nothing(const MemoryJob& job) const {
-  if (!values_stay(settings_) || is_metered(settings_, job) || !settings_.time.history.empty()) return false;
-  if (job.adaptation && job.adaptation->state) return false;
+  if (!values_stay(settings_) || is_metered(settings_, job) || is_adapting(settings_, job)) return false;
   const StageScene scene = scene_without_pixels(settings_, job);
   if (any_asked(settings_.frame_stages, scene)) return false;
   const SceneNumbers numbers = {scene.parameters.adaptation, scene.parameters.white_luminance, "", ""};
@@ -101,10 +104,18 @@ bool HostOperator::changes_nothing(const MemoryJob& job) const {
          !any_runs(settings_.light_stages, scene) && !any_runs(settings_.point_stages, scene);
 }
 
-bool HostOperator::looks_around(const MemoryJob& job) const {
-  if (is_metered(settings_, job) || settings_.display.tone) return true;
+std::optional<int> HostOperator::reach(const MemoryJob& job) const {
+  if (is_metered(settings_, job) || settings_.display.tone) return std::nullopt;
   const StageScene scene = scene_without_pixels(settings_, job);
-  return any_asked(settings_.frame_stages, scene) || any_runs(settings_.filter_stages, scene);
+  if (any_asked(settings_.frame_stages, scene)) return std::nullopt;
+  int out = 0;
+  for (const auto& stage : settings_.filter_stages) {
+    if (!stage->decide(scene).runs()) continue;
+    // What a filter does then is known only with the image's moment; a panorama goes on at its other side.
+    if (is_adapting(settings_, job) || settings_.viewing.panorama.value_or(false)) return std::nullopt;
+    out += stage->make(scene, {})->halo();
+  }
+  return out;
 }
 
 nlohmann::ordered_json HostOperator::bake(const std::string& path, const std::string& size,

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "host/parameters.h"
@@ -25,8 +26,8 @@ class HostOperator {
   SceneReport plan(const MemoryJob& job, const Notes& notes) const;
   /// Whether such an image comes out as it is, as far as that is known without a look at its pixels.
   bool changes_nothing(const MemoryJob& job) const;
-  /// Whether a pixel of the result depends on others than itself.
-  bool looks_around(const MemoryJob& job) const;
+  /// Pixels around each that its result depends on; nullopt: all of the image.
+  std::optional<int> reach(const MemoryJob& job) const;
   /// The pixel stages as a LUT file, as `scotopic bake` writes it: `size` nodes a side, `max_error` may be
   /// empty. Returns what bake --json says. Needs an adaptation.
   nlohmann::ordered_json bake(const std::string& path, const std::string& size, const std::string& max_error,

@@ -70,6 +70,14 @@ Window window_in(const RectI& window, const RectI& frame) {
   return {window.x1 - frame.x1, frame.y2 - window.y2, window.x2 - frame.x1, frame.y2 - window.y1};
 }
 
+RectI grown(const RectI& window, int by) {
+  return {window.x1 - by, window.y1 - by, window.x2 + by, window.y2 + by};
+}
+
+bool holds(const RectI& a, const RectI& b) {
+  return a.x1 <= b.x1 && a.y1 <= b.y1 && a.x2 >= b.x2 && a.y2 >= b.y2;
+}
+
 RectI common(const RectI& a, const RectI& b) {
   const RectI both = {std::max(a.x1, b.x1), std::max(a.y1, b.y1), std::min(a.x2, b.x2), std::min(a.y2, b.y2)};
   return is_empty(both) ? RectI{a.x1, a.y1, a.x1, a.y1} : both;

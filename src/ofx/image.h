@@ -39,6 +39,9 @@ class Image {
 
 /// Upside down: in a frame, from above.
 Window window_in(const RectI& window, const RectI& frame);
+/// By so many pixels on each side.
+RectI grown(const RectI& window, int by);
+bool holds(const RectI& a, const RectI& b);
 /// What both hold; empty where they do not meet.
 RectI common(const RectI& a, const RectI& b);
 

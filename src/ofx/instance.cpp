@@ -27,6 +27,25 @@ int frame_of(Time time) {
   return static_cast<int>(std::clamp(std::floor(time), -greatest, greatest));
 }
 
+/// Leaves of the source what `written` depends on, where that is not all of it.
+void cut(const HostOperator& op, const Image& source, const RectI& written, MemoryJob& job) {
+  const std::optional<int> reach = op.reach(job);
+  if (!reach || !holds(source.frame(), source.bounds())) return;
+  const RectI wanted = common(grown(written, *reach), source.frame());
+  const RectI tile = common(wanted, source.bounds());
+  if (tile.x2 <= tile.x1) return;
+  job.in = source.pixels(tile);
+  job.header.data = window_in(tile, source.frame());
+  // Of a host that brings less than it was asked for, what it brings is taken for the whole.
+  if (holds(source.bounds(), wanted)) job.header.whole = window_in(source.frame(), source.frame());
+}
+
+/// By so many lengths on each side, within `all`.
+RectD grown(const RectD& region, double x, double y, const RectD& all) {
+  return {std::max(region.x1 - x, all.x1), std::max(region.y1 - y, all.y1), std::min(region.x2 + x, all.x2),
+          std::min(region.y2 + y, all.y2)};
+}
+
 /// As many as a length, at least one.
 int pixels(double length) { return static_cast<int>(std::clamp(length, 1.0, 1e9)); }
 
@@ -66,6 +85,11 @@ double Instance::frame_rate() const {
   (void)suites().effect->get_property_set(effect_, &set);
   const double rate = Properties(set).number(property::frame_rate, 0);
   return rate > 0 && rate <= 1e6 ? rate : 24;
+}
+
+double Instance::pixel_aspect() const {
+  const double stated = Properties(source_properties_).number(property::pixel_aspect, 1);
+  return stated > 0 ? stated : 1;
 }
 
 TrackedAdaptation Instance::track(const PanelState& panel, Time time) const {
@@ -109,6 +133,7 @@ void Instance::render(const Moment& moment, const RectI& window) {
   job.out = target.pixels(written);
   if (job.in.channels != job.out.channels || job.in.type != job.out.type)
     throw Error(ExitCode::input, "", "source and output have different components or depths");
+  cut(*op, source, written, job);
   clear(target.pixels(written));
   (void)op->apply(job, {});
 }
@@ -122,7 +147,7 @@ bool Instance::is_identity(const Moment& moment) {
   return operator_for(panel.parameters)->changes_nothing(job);
 }
 
-std::optional<RectD> Instance::source_region(const Moment& moment) {
+std::optional<RectD> Instance::source_region(const Moment& moment, const RectD& wanted) {
   RectD all = {};
   if (suites().effect->clip_get_region_of_definition(source_, moment.time, &all) != ok) return std::nullopt;
   MemoryJob job;
@@ -131,10 +156,13 @@ std::optional<RectD> Instance::source_region(const Moment& moment) {
   std::byte none[16] = {};
   job.in = {none, 1, 1, 4, 16, 16, 4, SampleType::float32};
   job.header.data = {0, 0, 1, 1};
-  job.header.display = {0, 0, pixels((all.x2 - all.x1) * moment.scale_x),
-                        pixels((all.y2 - all.y1) * moment.scale_y)};
-  if (!operator_for(panel.parameters)->looks_around(job)) return std::nullopt;
-  return all;
+  const double x = pixel_aspect() / moment.scale_x, y = 1 / moment.scale_y;  // lengths of a pixel
+  job.header.display = {0, 0, pixels((all.x2 - all.x1) / x), pixels((all.y2 - all.y1) / y)};
+  const std::optional<int> reach = operator_for(panel.parameters)->reach(job);
+  if (!reach) return all;
+  if (*reach == 0) return std::nullopt;
+  // One more: hosts round regions to pixels.
+  return grown(wanted, (*reach + 1) * x, (*reach + 1) * y, all);
 }
 
 }  // namespace scotopic::ofx

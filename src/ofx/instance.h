@@ -27,8 +27,8 @@ class Instance {
   void render(const Moment& moment, const RectI& window);
   /// Whether the input is the output, as far as no pixel is needed to know.
   bool is_identity(const Moment& moment);
-  /// What of the source is needed; nullopt: the same region.
-  std::optional<RectD> source_region(const Moment& moment);
+  /// What of the source `wanted` needs, in canonical coordinates; nullopt: the same region.
+  std::optional<RectD> source_region(const Moment& moment, const RectD& wanted);
 
  private:
   std::shared_ptr<const HostOperator> operator_for(const Parameters& parameters);
@@ -36,6 +36,7 @@ class Instance {
   PanelState ask(const Moment& moment, MemoryJob& job) const;
   TrackedAdaptation track(const PanelState& panel, Time time) const;
   double frame_rate() const;
+  double pixel_aspect() const;
 
   ImageEffect effect_;
   Panel panel_;

@@ -104,7 +104,10 @@ Status is_identity(ImageEffect effect, const Properties& in, const Properties& o
 }
 
 Status regions_of_interest(ImageEffect effect, const Properties& in, const Properties& out) {
-  const std::optional<RectD> region = instance_of(effect).source_region(moment_of(in));
+  RectD wanted{};
+  double* const sides_of_wanted[] = {&wanted.x1, &wanted.y1, &wanted.x2, &wanted.y2};
+  for (int i = 0; i < 4; ++i) *sides_of_wanted[i] = in.number(property::region_of_interest, 0, i);
+  const std::optional<RectD> region = instance_of(effect).source_region(moment_of(in), wanted);
   if (!region) return reply_default;
   const double sides[] = {region->x1, region->y1, region->x2, region->y2};
   for (int i = 0; i < 4; ++i) out.set(property::source_region, sides[i], i);

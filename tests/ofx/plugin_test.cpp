@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstring>
 #include <functional>
+#include <optional>
 #include <thread>
 
 #include "cli/run_program.h"
@@ -27,7 +29,8 @@ struct Setting {
   const char* name;
   std::function<void(ImageEffectStruct&)> set;
   std::vector<std::string> options;
-  bool whole_frame = false;  ///< pixels depend on others
+  enum class Needs { pixel, halo, frame };
+  Needs needs = Needs::pixel;  ///< what of the source a pixel depends on
 };
 
 void number(ImageEffectStruct& e, const std::string& name, double value) {
@@ -59,7 +62,7 @@ const std::vector<Setting>& settings() {
       {"metered",
        [](auto& e) { word(e, "scene", "auto"), number(e, "white_luminance", 2); },
        {"--adaptation=auto", "--white-luminance=2"},
-       true},
+       Setting::Needs::frame},
       {"strengths",
        [](auto& e) {
          word(e, "scene", "lane"), number(e, "strength", 0.7), number(e, "strength_chroma", 0.25);
@@ -81,24 +84,24 @@ const std::vector<Setting>& settings() {
       {"detail by contrast",
        [](auto& e) { word(e, "scene", "moon"), number(e, "ppd", 20); },
        {"--adaptation=moon", "--ppd=20"},
-       true},
+       Setting::Needs::halo},
       {"acuity",
        [](auto& e) { word(e, "scene", "moon"), number(e, "ppd", 20), word(e, "detail", "bilateral"); },
        {"--adaptation=moon", "--ppd=20", "--detail=bilateral"},
-       true},
+       Setting::Needs::halo},
       {"glare",
        [](auto& e) {
          word(e, "scene", "road"), number(e, "ppd", 10), word(e, "glare", "all"), number(e, "age", 70);
        },
        {"--adaptation=road", "--ppd=10", "--glare=all", "--age=70"},
-       true},
+       Setting::Needs::frame},
       {"everything, in a still",
        [](auto& e) {
          word(e, "scene", "starlight"), word(e, "effects", "all"), number(e, "fov", 5),
              tick(e, "moving", false);
        },
        {"--adaptation=starlight", "--effects=all", "--fov=5"},
-       true},
+       Setting::Needs::frame},
       {"daylight before",
        [](auto& e) {
          word(e, "scene", "moon"), e.params.params.at("adaptation_history").text = "1000:600,0.01:20";
@@ -107,11 +110,11 @@ const std::vector<Setting>& settings() {
       {"display",
        [](auto& e) { word(e, "scene", "street"), e.params.params.at("display").text = "night"; },
        {"--adaptation=street", "--display=night"},
-       true},
+       Setting::Needs::frame},
       {"tone map",
        [](auto& e) { word(e, "scene", "street"), word(e, "tone", "local"); },
        {"--adaptation=street", "--tone=local"},
-       true},
+       Setting::Needs::frame},
       {"a space",
        [](auto& e) {
          word(e, "scene", "street"), word(e, "colorspace", "ACEScg"), number(e, "exposure", 1.5);
@@ -245,7 +248,24 @@ TEST_F(Plugin, every_stage_depth_and_number_of_components_gives_the_programs_byt
   std::printf("%zu settings, %zu values: the program's bytes\n", settings().size(), compared);
 }
 
-TEST_F(Plugin, tiles_are_pieces_of_the_whole) {
+/// What the plug-in asks of the source for a region; nullopt: the same.
+std::optional<RectI> asked_for(const TestHost& host, ImageEffectStruct& effect, const RectI& region) {
+  PropertySetStruct in, out;
+  in.set(ofx::property::time, {0.0});
+  in.set(ofx::property::region_of_interest, {static_cast<double>(region.x1), static_cast<double>(region.y1),
+                                             static_cast<double>(region.x2), static_cast<double>(region.y2)});
+  if (host.call(ofx::action::regions_of_interest, &effect, &in, &out) != ofx::ok) return std::nullopt;
+  const auto side = [&](std::size_t i) {
+    return static_cast<int>(out.number(ofx::property::source_region, i));
+  };
+  return RectI{side(0), side(1), side(2), side(3)};
+}
+
+bool same(const RectI& a, const RectI& b) {
+  return a.x1 == b.x1 && a.y1 == b.y1 && a.x2 == b.x2 && a.y2 == b.y2;
+}
+
+TEST_F(Plugin, tiles_are_pieces_of_the_whole_and_ask_for_their_halo_alone) {
   const Picture picture(4, Depth::float32);
   const RectI frame = {0, 0, width, height};
   for (const Setting& setting : settings()) {
@@ -253,19 +273,55 @@ TEST_F(Plugin, tiles_are_pieces_of_the_whole) {
     Clips whole(*effect, frame, frame, 4, Depth::float32);
     picture.put(Picture::file(), whole.source, 0, 0);
     ASSERT_EQ(render(host_, *effect, frame), ofx::ok);
-    PropertySetStruct in, out;
-    in.set(ofx::property::time, {0.0});
-    in.set(ofx::property::region_of_interest, {10.0, 12.0, 31.0, 40.0});
-    const ofx::Status asked = host_.call(ofx::action::regions_of_interest, effect.get(), &in, &out);
-    EXPECT_EQ(asked, setting.whole_frame ? ofx::ok : ofx::reply_default) << setting.name;
-    EXPECT_EQ(out.number(ofx::property::source_region, 2), setting.whole_frame ? width : 0);
-    const RectI tile = {10, 12, 31, 40};
-    // A host that is not asked for more brings the tile alone.
-    Clips clips(*effect, setting.whole_frame ? frame : tile, frame, 4, Depth::float32);
-    picture.put(Picture::file(), clips.source, 0, 0);
-    ASSERT_EQ(render(host_, *effect, tile), ofx::ok);
-    EXPECT_TRUE(same_pixels(clips.target, whole.target, tile)) << setting.name;
+    for (const RectI& tile : {RectI{4, 2, 20, 9}, RectI{80, 30, width, height}, RectI{10, 12, 31, 40}}) {
+      const std::optional<RectI> asked = asked_for(host_, *effect, tile);
+      ASSERT_EQ(asked.has_value(), setting.needs != Setting::Needs::pixel) << setting.name;
+      if (asked) EXPECT_EQ(same(*asked, frame), setting.needs == Setting::Needs::frame) << setting.name;
+      // Hosts bring what they were asked for, or more.
+      for (const RectI& brought : {asked.value_or(tile), frame}) {
+        Clips clips(*effect, brought, frame, 4, Depth::float32);
+        picture.put(Picture::file(), clips.source, 0, 0);
+        ASSERT_EQ(render(host_, *effect, tile), ofx::ok);
+        EXPECT_TRUE(same_pixels(clips.target, whole.target, tile)) << setting.name;
+      }
+    }
     host_.destroy(*effect);
+  }
+}
+
+/// Multiplies colour by alphas that change no digit, or makes those the alphas of an image.
+void set_alphas(HostImage& image, bool multiply) {
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      float rgba[4];
+      std::memcpy(rgba, image.at(x, y), sizeof rgba);
+      rgba[3] = std::array{1.0f, 0.5f, 0.25f, 0.125f}[static_cast<std::size_t>(x + 3 * y) % 4];
+      for (int c = 0; multiply && c < 3; ++c) rgba[c] *= rgba[3];
+      std::memcpy(image.at(x, y), rgba, sizeof rgba);
+    }
+}
+
+// The program has no straight alpha in EXR: the reference is the same light, premultiplied.
+TEST_F(Plugin, straight_alpha_is_multiplied_into_the_light_and_divided_out_again) {
+  const Picture picture(4, Depth::float32);
+  const RectI frame = {0, 0, width, height};
+  for (const Setting& setting : settings()) {
+    if (std::string(setting.name) == "display") continue;  // encodes after the division
+    const auto straight = instance(setting), associated = instance(setting);
+    Clips a(*straight, frame, frame, 4, Depth::float32), b(*associated, frame, frame, 4, Depth::float32);
+    straight->clips.at(ofx::source_clip)
+        .image.set(ofx::property::premultiplication, {std::string(ofx::unpremultiplied)});
+    picture.put(Picture::file(), a.source, 0, 0);
+    picture.put(Picture::file(), b.source, 0, 0);
+    set_alphas(a.source, false);
+    set_alphas(b.source, true);
+    ASSERT_EQ(render(host_, *straight, frame), ofx::ok) << setting.name;
+    ASSERT_EQ(render(host_, *associated, frame), ofx::ok) << setting.name;
+    EXPECT_FALSE(same_pixels(a.target, b.target, frame)) << setting.name;
+    set_alphas(a.target, true);
+    EXPECT_TRUE(same_pixels(a.target, b.target, frame)) << setting.name;
+    host_.destroy(*straight);
+    host_.destroy(*associated);
   }
 }
 

@@ -2,6 +2,7 @@
 // same channels: bytes come out as from file to file.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,10 @@ struct MemoryHeader {
   std::string name = "image";  ///< for messages
   Window data;                 ///< the pixels that are there
   Window display;              ///< the whole frame
-  bool straight = false;       ///< colour is not multiplied by alpha
+  /// Of a tile: where all pixels of its image lie. Those of the tile whose halo it holds become what they
+  /// would be in the image.
+  std::optional<Window> whole;
+  bool straight = false;  ///< colour is not multiplied by alpha
   double pixel_aspect = 1;
 };
 

@@ -27,6 +27,7 @@ OpenImage open_memory(const MemoryJob& job, const ImageSettings& settings, const
     if (!settings.request.colourspace) light.space_reason = "the working space";
   for (OutputSubimage& out : image.layout.outputs) out.subimage.unassociated_alpha = job.header.straight;
   image.layout.notes.clear();  // about files
+  image.layout.whole = job.header.whole;
   image.layout.wraps = is_panorama(settings.viewing, *image.source, image.layout);
   image.known = known_numbers(settings.choice, *image.source, image.layout, notes);
   return image;
