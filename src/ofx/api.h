@@ -3,6 +3,8 @@
 // data: what crosses the border may be from any compiler.
 #pragma once
 
+#include <cstddef>
+
 namespace scotopic::ofx {
 
 using Status = int;
@@ -110,6 +112,28 @@ struct ParameterSuite {
   void* copy;
   void* edit_begin;
   void* edit_end;
+};
+
+// Of these two the plug-in needs nothing: memory and threads are its own.
+struct MemorySuite {
+  Status (*alloc)(void* handle, std::size_t bytes, void** data);
+  Status (*free)(void* data);
+};
+
+struct MutexStruct;
+using Mutex = MutexStruct*;
+using ThreadFunction = void(unsigned int index, unsigned int count, void* argument);
+
+struct MultiThreadSuite {
+  Status (*multi_thread)(ThreadFunction* function, unsigned int count, void* argument);
+  Status (*num_cpus)(unsigned int* count);
+  Status (*index)(unsigned int* index);
+  int (*is_spawned)();
+  Status (*mutex_create)(Mutex* mutex, int locks);
+  Status (*mutex_destroy)(Mutex mutex);
+  Status (*mutex_lock)(Mutex mutex);
+  Status (*mutex_unlock)(Mutex mutex);
+  Status (*mutex_try_lock)(Mutex mutex);
 };
 
 struct MessageSuite {
