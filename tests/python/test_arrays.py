@@ -94,6 +94,23 @@ class Arrays(unittest.TestCase):
         self.assertIsInstance(made, oiio.ImageBuf)
         self.assertEqual(made.get_pixels("float").tobytes(), scotopic.apply(pixels, adaptation=0.01).tobytes())
 
+    def test_an_image_buffer_says_itself_whether_its_alpha_is_straight_and_how_wide_pixels_are(self):
+        pixels = night(13, 17, 4)
+        pixels[..., 3] = 0.25
+        spec = oiio.ImageSpec(17, 13, 4, "float")
+        spec.attribute("oiio:UnassociatedAlpha", 1)
+        spec.attribute("PixelAspectRatio", 2.0)
+        buffer = oiio.ImageBuf(spec)
+        buffer.set_pixels(buffer.roi, pixels)
+        asked = dict(adaptation=0.01, ppd=20, detail="bilateral")
+        made = scotopic.apply(buffer, **asked).get_pixels("float")
+        straight = scotopic.apply(pixels, alpha="straight", pixel_aspect=2, **asked)
+        self.assertEqual(made.tobytes(), straight.tobytes())
+        for other in (dict(pixel_aspect=2), dict(alpha="straight")):
+            self.assertNotEqual(made.tobytes(), scotopic.apply(pixels, **other, **asked).tobytes())
+        told = scotopic.apply(buffer, alpha="premultiplied", pixel_aspect=1, **asked).get_pixels("float")
+        self.assertEqual(told.tobytes(), scotopic.apply(pixels, **asked).tobytes())
+
 
 class Operators(unittest.TestCase):
     def test_equal_parameters_are_equal_operators(self):

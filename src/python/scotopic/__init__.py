@@ -79,11 +79,19 @@ def _texts(name, values):
     return out
 
 
-def _image_arguments(values):
-    a = {key: values.pop(key, usual) for key, usual in _OF_IMAGE.items()}
+def _image_arguments(values, buffer=None):
+    usual = dict(_OF_IMAGE) if buffer is None else {**_OF_IMAGE, **_of_buffer(buffer.spec())}
+    a = {key: values.pop(key, value) for key, value in usual.items()}
     if a["alpha"] not in ("premultiplied", "straight"):
         raise ValueError(f"alpha: '{a['alpha']}' is not one of premultiplied, straight")
     return a
+
+
+def _of_buffer(spec):
+    """What an ImageBuf says itself of its alpha and its pixels."""
+    straight = spec.get_int_attribute("oiio:UnassociatedAlpha", 0)
+    return {"alpha": "straight" if straight else "premultiplied",
+            "pixel_aspect": spec.get_float_attribute("PixelAspectRatio", 1.0)}
 
 
 def _frame(a, index=0):
@@ -188,10 +196,10 @@ class Operator:
 
     def apply(self, rgb, *, out=None, **image):
         """See scotopic.apply(); `image` are frame, alpha and pixel_aspect."""
-        a = _image_arguments(image)
+        array, buffer = _as_array(rgb)
+        a = _image_arguments(image, buffer)
         if image:
             raise TypeError(f"Operator.apply() got an unexpected keyword argument '{next(iter(image))}'")
-        array, buffer = _as_array(rgb)
         images = list(_images(array))
         target = _target(array, out)
         if target is not array and not _same_place(target, array) and _np.may_share_memory(target, array):
@@ -205,10 +213,11 @@ class Operator:
         return _as_buffer(target, buffer) if buffer is not None and out is None else target
 
     def _of_one(self, rgb, image, name):
-        a = _image_arguments(image)
+        array, buffer = _as_array(rgb)
+        a = _image_arguments(image, buffer)
         if image:
             raise TypeError(f"Operator.{name}() got an unexpected keyword argument '{next(iter(image))}'")
-        images = list(_images(_as_array(rgb)[0]))
+        images = list(_images(array))
         if len(images) != 1 or images[0].size == 0:
             raise ValueError(f"{name}() takes one image with pixels")
         return _json.loads(getattr(self._core(images[0].dtype.name), name)(images[0], _frame(a)))
@@ -232,10 +241,12 @@ class Operator:
         return _json.loads(self._core("float32").bake(_text(path), _text(size), text))
 
     def shader(self, language):
-        """The pixel stages, exact, as the text of a shader: dctl, glsl, blink, hlsl or osl; with display="night" that
-        stage too. As `scotopic bake --shader` writes it: adaptation, white luminance and strengths are sliders.
+        """The pixel stages, exact, as the text of a shader: dctl, glsl, blink, hlsl or osl.
 
-        >>> "void" in Operator(adaptation="moon").shader("glsl") or "vec3" in Operator(adaptation=1).shader("glsl")
+        As `scotopic bake --shader` writes it: adaptation, white luminance and strengths are sliders. With
+        display="night" the display stage is in it.
+
+        >>> "vec3 scotopic(vec3" in Operator(adaptation="moon").shader("glsl")
         True
         """
         return self._core("float32").shader(_text(language))
@@ -257,7 +268,7 @@ def apply(rgb, *, out=None, **parameters):
     ever changed. After an exception its values are undefined.
 
     frame: number of the (first) image in a sequence, for what moves; None: stills. alpha: premultiplied
-    (default) or straight. pixel_aspect: width over height of a pixel.
+    (default) or straight. pixel_aspect: width over height of a pixel. An ImageBuf tells the last two itself.
 
     Returns an array of the same shape and type (an ImageBuf for an ImageBuf). float64 is computed in double
     from values rounded to float; values that no stage changes keep all their digits.

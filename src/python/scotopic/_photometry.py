@@ -36,7 +36,8 @@ def lmsr(spectrum, wavelengths, *, sampling="bin"):
 
     spectrum: radiance in W/(m2 sr nm), bands along the last axis, any number of axes before it. wavelengths:
     band centres in nm, ascending. sampling: values are means over their bins (bin) or samples (point).
-    Cones of Stockman & Sharpe 2000 (2 degrees), rods of CIE 1951. Relative error 1e-14 of the band model.
+    Returns an array (..., 4). Cones of Stockman & Sharpe 2000 (2 degrees), rods of CIE 1951. Relative error
+    1e-14 of the band model.
 
     >>> nm, d65 = illuminant("d65")
     >>> signals = lmsr(d65, nm)
@@ -47,7 +48,9 @@ def lmsr(spectrum, wavelengths, *, sampling="bin"):
 
 
 def luminances(spectrum, wavelengths, *, sampling="bin"):
-    """Photopic and scotopic luminance, cd/m2, of spectral radiance: CIE 1924 V, CIE 1951 V'; as for lmsr().
+    """Photopic and scotopic luminance, cd/m2, of spectral radiance: CIE 1924 V, CIE 1951 V'.
+
+    Arguments as for lmsr(). Returns an array (2, ...).
 
     >>> nm, sodium = illuminant("hps")
     >>> photopic, scotopic = luminances(sodium, nm)
@@ -59,7 +62,10 @@ def luminances(spectrum, wavelengths, *, sampling="bin"):
 
 def mes2(photopic, sp_ratio=2.4648):
     """Mesopic photometry by CIE 191:2010 (MES2): the adaptation coefficient m (1: cones alone, 0: rods alone)
-    and the mesopic luminance, cd/m2. photopic: luminance in cd/m2; both may be arrays.
+    and the mesopic luminance, cd/m2.
+
+    photopic: luminance in cd/m2; sp_ratio: scotopic over photopic luminance of the light, CIE D65's by
+    default. Numbers or arrays that go together by numpy's rules; the results have their common shape.
 
     >>> mes2(0.1, 0.65).luminance < 0.1 < mes2(0.1, 1.72).luminance
     True
@@ -68,8 +74,8 @@ def mes2(photopic, sp_ratio=2.4648):
 
 
 def pupil(adaptation):
-    """Diameter of the pupil in mm at an adaptation luminance in cd/m2: Watson & Yellott 2012, 60 degrees, both
-    eyes, age 28.58.
+    """Diameter of the pupil in mm at an adaptation luminance in cd/m2, a number or an array: Watson &
+    Yellott 2012, 60 degrees, both eyes, age 28.58.
 
     >>> round(pupil(1.0), 2)
     5.16
@@ -78,7 +84,8 @@ def pupil(adaptation):
 
 
 def trolands(adaptation):
-    """Trolands per cd/m2 through that pupil: its area in mm2.
+    """Trolands per cd/m2 through that pupil, its area in mm2, at an adaptation luminance in cd/m2, a number
+    or an array.
 
     >>> round(trolands(1.0), 2)
     20.91
@@ -87,7 +94,7 @@ def trolands(adaptation):
 
 
 def thresholds(luminance):
-    """What an eye adapted to `luminance` cd/m2 sees at least.
+    """What an eye adapted to `luminance` cd/m2, a number or an array, sees at least; results have its shape.
 
     difference: least visible difference, cd/m2 (Ferwerda et al. 1996 as in Ward Larson et al. 1997). rods,
     cones, both: log10 of the threshold over the absolute one of rods.
@@ -128,15 +135,28 @@ def adaptation_track(luminance, dt, history=None):
 
 
 def illuminants():
-    """Kinds of light by name: (name, S/P ratio, description)."""
+    """Kinds of light by name: (name, S/P ratio, description).
+
+    >>> "hps" in [name for name, ratio, description in illuminants()]
+    True
+    """
     return _core.illuminants()
 
 
 def illuminant(name):
-    """Relative spectral power of a kind of light: wavelengths in nm (380 to 780 in steps of 5), values."""
+    """Relative spectral power of a kind of light: wavelengths in nm (380 to 780 in steps of 5), values.
+
+    >>> nm, power = illuminant("d65")
+    >>> len(nm) == len(power) == 81
+    True
+    """
     return _core.illuminant(name)
 
 
 def adaptations():
-    """Adaptation luminances by name: (name, cd/m2, scene)."""
+    """Adaptation luminances by name: (name, cd/m2, scene).
+
+    >>> [luminance for name, luminance, scene in adaptations() if name == "moon"]
+    [0.01]
+    """
     return _core.adaptations()
