@@ -17,7 +17,8 @@ install(TARGETS scotopic_core scotopic_image scotopic_ocio scotopic_host EXPORT 
 # What others may include; all else may change without a word.
 configure_file(src/scotopic/version.h.in ${PROJECT_BINARY_DIR}/include/scotopic/version.h @ONLY)
 install(DIRECTORY src/scotopic/ ${PROJECT_BINARY_DIR}/include/scotopic/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/scotopic
-  COMPONENT library FILES_MATCHING PATTERN "*.h")
+  COMPONENT library FILES_MATCHING PATTERN "*.h" PATTERN "error.h" EXCLUDE)
+install(FILES src/base/error.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/scotopic COMPONENT library)
 install(EXPORT ScotopicTargets NAMESPACE scotopic:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Scotopic
   COMPONENT library)
 configure_package_config_file(cmake/ScotopicConfig.cmake.in ${PROJECT_BINARY_DIR}/ScotopicConfig.cmake

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <optional>
 
 #include "stages/acuity/scenes.h"
 
@@ -15,9 +14,9 @@ using test::Image;
 
 /// The image through AcuityRows in bands of `step` rows, in the file's coordinates.
 Image in_bands(const AcuityFilter& filter, const Image& in, int step, bool descending,
-               std::vector<std::uint8_t>& touched, const std::optional<Window>& whole = std::nullopt) {
+               std::vector<std::uint8_t>& touched) {
   const Window data{-7, 40, -7 + in.width, 40 + in.height};
-  AcuityRows rows(filter, data, descending, true, false, whole);
+  AcuityRows rows(filter, data, descending, true);
   Image out(in.width, in.height);
   LightRow light(static_cast<std::size_t>(in.width));
   touched.assign(in.planes[0].size(), 2);
@@ -84,47 +83,6 @@ TEST(AcuityRows, bands_in_either_order_do_not_show_and_changed_pixels_count_as_t
         }
       }
   }
-}
-
-/// Columns and rows of an image.
-Image cut(const Image& from, const Window& w) {
-  Image out(w.width(), w.height());
-  for (std::size_t k = 0; k < 3; ++k)
-    for (int y = 0; y < out.height; ++y)
-      for (int x = 0; x < out.width; ++x)
-        out.planes[k][out.at(x, y)] = from.planes[k][from.at(w.x0 + x, w.y0 + y)];
-  return out;
-}
-
-// Both engines: cells lie on a grid of the image, which a tile must not shift.
-TEST(AcuityRows, a_tile_with_its_halo_is_a_piece_of_the_whole) {
-  const Image image = test::night(150, 140);
-  int compared = 0;
-  for (double sigma : {1.2, 5.0}) {
-    const AcuityParameters p = test::parameters(sigma);
-    const Image whole = test::filtered(p, image);
-    const AcuityFilter filter(p);
-    const int halo = filter.halo();
-    for (const Window& tile : {Window{0, 0, 90, 100}, Window{31, 23, 150, 117}, Window{40, 37, 133, 140}})
-      for (bool descending : {false, true}) {
-        const Window within{tile.x0 == 0 ? 0 : tile.x0 + halo, tile.y0 == 0 ? 0 : tile.y0 + halo,
-                            tile.x1 == 150 ? 150 : tile.x1 - halo, tile.y1 == 140 ? 140 : tile.y1 - halo};
-        ASSERT_TRUE(within.width() > 0 && within.height() > 0) << halo;
-        std::vector<std::uint8_t> touched;
-        const Window lies{-7 - tile.x0, 40 - tile.y0, 143 - tile.x0, 180 - tile.y0};
-        const Image out = in_bands(filter, cut(image, tile), 16, descending, touched, lies);
-        for (int y = tile.y0; y < tile.y1; ++y)
-          for (int x = tile.x0; x < tile.x1; ++x) {
-            const bool has_halo = x >= within.x0 && x < within.x1 && y >= within.y0 && y < within.y1;
-            const Image& expected = has_halo ? whole : image;
-            const float value = out.planes[1][out.at(x - tile.x0, y - tile.y0)];
-            ASSERT_EQ(std::memcmp(&value, &expected.planes[1][image.at(x, y)], sizeof value), 0)
-                << "sigma " << sigma << " at " << x << ", " << y;
-            compared += has_halo;
-          }
-      }
-  }
-  EXPECT_GT(compared, 10000);
 }
 
 }  // namespace

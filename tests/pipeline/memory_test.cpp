@@ -157,5 +157,60 @@ TEST(Memory, an_output_that_overlaps_the_input_elsewhere_or_does_not_fit_is_refu
   EXPECT_NO_THROW(run(job, settings()));
 }
 
+ImageSettings detail_at(double pixels_per_degree) {
+  ImageSettings s = settings();
+  s.viewing.pixels_per_degree = pixels_per_degree;
+  s.choice.stages.set_effects("shift,detail");
+  s.choice.stages.set("detail", "bilateral");
+  add_stages(s);
+  return s;
+}
+
+int halo_of(const ImageSettings& s) {
+  StageScene scene;
+  scene.parameters = parameters_of(s.choice, 0.05, 1);
+  scene.resolution.pixels_per_degree = *s.viewing.pixels_per_degree;
+  scene.resolution.known = true;
+  return s.filter_stages.front()->make(scene, {})->halo();
+}
+
+/// Pixels from a place of the whole on.
+MemoryPixels piece(std::vector<float>& whole, const Window& w) {
+  MemoryPixels out = pixels(whole, width, height, 4);
+  out.data = out.at(w.x0, w.y0, 0);
+  out.width = w.width();
+  out.height = w.height();
+  return out;
+}
+
+// By either engine of the filter: one has a grid, which lies as it does on the whole.
+TEST(Memory, a_tile_with_its_halo_becomes_that_piece_of_the_whole) {
+  const Window all{0, 0, width, height};
+  for (const double ppd : {30.0, 80.0}) {
+    const ImageSettings s = detail_at(ppd);
+    std::vector<float> in = night(4), out(in.size());
+    const std::vector<float> whole = made(in, 4, all, s);
+    EXPECT_NE(whole, in);
+    const int halo = halo_of(s);
+    for (const Window& wanted : {Window{60, 40, 70, 50}, Window{0, 0, 9, 7}, Window{140, 80, 150, 90}}) {
+      MemoryJob job;
+      job.header.data = {std::max(0, wanted.x0 - halo), std::max(0, wanted.y0 - halo),
+                         std::min(width, wanted.x1 + halo), std::min(height, wanted.y1 + halo)};
+      ASSERT_FALSE(job.header.data == all) << halo;
+      job.header.display = all;
+      job.header.whole = all;
+      job.window = wanted;
+      job.in = piece(in, job.header.data);
+      job.out = piece(out, wanted);
+      run(job, s);
+      for (int y = wanted.y0; y < wanted.y1; ++y) {
+        const auto at = static_cast<std::size_t>(4 * (y * width + wanted.x0));
+        ASSERT_EQ(std::memcmp(&out[at], &whole[at], 16 * static_cast<std::size_t>(wanted.width())), 0)
+            << ppd << " pixels per degree, halo " << halo << ", row " << y;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace scotopic

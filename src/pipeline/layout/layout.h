@@ -71,7 +71,6 @@ struct ImageLayout {
   std::optional<NightOutput> night;  ///< the display stage runs
   bool dither = false;               ///< codes of 8 bits are rounded by their place
   bool wraps = false;                ///< a panorama: its last column lies beside its first
-  std::optional<Window> whole;       ///< the image is a tile of one that lies here
   std::vector<std::string> notes;
 
   /// The light of that subimage of the source; nullptr: it holds none.

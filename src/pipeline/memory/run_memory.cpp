@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "pipeline/memory/tile_filter.h"
 
 namespace scotopic {
 namespace {
@@ -27,7 +28,6 @@ OpenImage open_memory(const MemoryJob& job, const ImageSettings& settings, const
     if (!settings.request.colourspace) light.space_reason = "the working space";
   for (OutputSubimage& out : image.layout.outputs) out.subimage.unassociated_alpha = job.header.straight;
   image.layout.notes.clear();  // about files
-  image.layout.whole = job.header.whole;
   image.layout.wraps = is_panorama(settings.viewing, *image.source, image.layout);
   image.known = known_numbers(settings.choice, *image.source, image.layout, notes);
   return image;
@@ -61,6 +61,8 @@ ImageJob named(const MemoryJob& job) {
 ImageSettings settings_for(const MemoryJob& job, const ImageSettings& settings) {
   ImageSettings out = settings;
   out.sequence = job.frame.has_value();
+  if (job.header.whole)
+    out.filter_stages = stages_on_tile(settings.filter_stages, job.header.data, *job.header.whole);
   return out;
 }
 

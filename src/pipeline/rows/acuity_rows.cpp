@@ -18,23 +18,10 @@ std::int64_t acuity_bytes(const SpatialFilter& filter, const Subimage& subimage,
          waiting * (rest * subimage.data.width() + of_file);
 }
 
-namespace {
-
-/// Pixels of a tile that lie its halo away from every side that is not the image's own; from its corner.
-Window within(const Window& data, const Window& whole, int halo) {
-  const auto inset = [halo](bool at_the_side) { return at_the_side ? 0 : halo; };
-  return {inset(data.x0 <= whole.x0), inset(data.y0 <= whole.y0), data.width() - inset(data.x1 >= whole.x1),
-          data.height() - inset(data.y1 >= whole.y1)};
-}
-
-}  // namespace
-
 AcuityRows::AcuityRows(const SpatialFilter& filter, const Window& data, bool descending, bool alpha,
-                       bool wraps, const std::optional<Window>& whole)
+                       bool wraps)
     : filter_(filter),
       data_(data),
-      whole_(whole.value_or(data)),
-      within_(within(data_, whole_, filter.halo())),
       descending_(descending),
       alpha_(alpha),
       pad_(wraps ? filter.halo() : 0),
@@ -101,51 +88,27 @@ bool AcuityRows::next() {
 }
 
 void AcuityRows::filter_band() {
-  const std::size_t floats =
-      static_cast<std::size_t>(now_.band.rows) * static_cast<std::size_t>(data_.width());
+  const int width = data_.width(), y = now_.band.y0 - data_.y0;
+  const std::size_t floats = static_cast<std::size_t>(now_.band.rows) * static_cast<std::size_t>(width);
   for (std::vector<float>& plane : out_) plane.resize(floats);
-  if (within_ != Window{0, 0, data_.width(), data_.height()}) copy_band();
-  const AcuityTile tile = tile_of_band();
-  if (tile.height == 0) return;
   const int top = descending_ ? data_.height() - come_ : forgotten_;
   const AcuityWindow window{plane_row(0, top) - pad_,
                             plane_row(1, top) - pad_,
                             plane_row(2, top) - pad_,
                             descending_ ? -stride_ : stride_,
-                            data_.x0 - whole_.x0,
-                            data_.y0 - whole_.y0 + top,
+                            0,
+                            top,
                             stride_,
                             come_ - forgotten_,
-                            whole_.width() + 2 * pad_,
-                            whole_.height()};
+                            stride_,
+                            data_.height()};
+  const AcuityTile tile{out_[0].data(), out_[1].data(), out_[2].data(), width, pad_, y,
+                        width,          now_.band.rows};
   filter_.filter(window, tile, [](int count, const std::function<void(int)>& task) {
     parallel_rows(count, 1, [&](int first, int last) {
       for (int i = first; i < last; ++i) task(i);
     });
   });
-}
-
-// What of the oldest band has its halo, in coordinates of the whole.
-AcuityTile AcuityRows::tile_of_band() {
-  const int y = now_.band.y0 - data_.y0;
-  const int y0 = std::max(y, within_.y0), y1 = std::min(y + now_.band.rows, within_.y1);
-  if (y1 <= y0 || within_.width() <= 0) return {};
-  const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(y0 - y) * data_.width() + within_.x0;
-  return {out_[0].data() + at,
-          out_[1].data() + at,
-          out_[2].data() + at,
-          data_.width(),
-          data_.x0 - whole_.x0 + pad_ + within_.x0,
-          data_.y0 - whole_.y0 + y0,
-          within_.width(),
-          y1 - y0};
-}
-
-void AcuityRows::copy_band() {
-  const int width = data_.width(), y = now_.band.y0 - data_.y0;
-  for (int k = 0; k < 3; ++k)
-    for (int row = 0; row < now_.band.rows; ++row)
-      std::copy_n(plane_row(k, y + row), width, out_[k].data() + static_cast<std::ptrdiff_t>(row) * width);
 }
 
 void AcuityRows::mark_changes() {

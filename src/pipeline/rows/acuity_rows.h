@@ -28,10 +28,9 @@ std::int64_t acuity_bytes(const SpatialFilter& filter, const Subimage& subimage,
 class AcuityRows {
  public:
   /// `filter` must outlive it; `data` is the subimage's window; `alpha`: keep it beside the light; `wraps`:
-  /// the last column lies beside the first, as in a lat-long panorama. `whole`: of a tile, the image that it
-  /// is cut from; pixels whose halo the tile does not hold pass as they are.
-  AcuityRows(const SpatialFilter& filter, const Window& data, bool descending, bool alpha, bool wraps = false,
-             const std::optional<Window>& whole = std::nullopt);
+  /// the last column lies beside the first, as in a lat-long panorama.
+  AcuityRows(const SpatialFilter& filter, const Window& data, bool descending, bool alpha,
+             bool wraps = false);
 
   /// Makes room for the next band, and says where it lies until next() takes it.
   const Band* add(Band&& band);
@@ -53,14 +52,10 @@ class AcuityRows {
   float* plane_row(int channel, int y);
   void forget_rows();
   void filter_band();
-  AcuityTile tile_of_band();
-  void copy_band();
   void mark_changes();
 
   const SpatialFilter& filter_;
   Window data_;
-  Window whole_;
-  Window within_;  // of data_, from its corner: the pixels whose halo is there
   bool descending_;
   bool alpha_;
   int pad_;     // columns of the other side, left and right of each row

@@ -79,7 +79,6 @@ SubimageRun::SubimageRun(const PixelSource& source, const ImageLayout& layout, c
       out_(out),
       stages_(stages),
       wraps_(layout.wraps),
-      whole_(layout.whole),
       frame_(frame_of(stages, layout, light_)),
       reader_(light_.channels, config, light_.space),
       tally_(source_subimage_) {
@@ -141,10 +140,10 @@ void SubimageRun::see_band(Band&& in, std::deque<AcuityRows>& filters,
 std::deque<AcuityRows> SubimageRun::filter_rows(bool descending, bool keep_alpha) const {
   std::deque<AcuityRows> out;
   const Subimage& p = source_subimage_;
-  const bool around = p.data.x0 == p.display.x0 && p.data.x1 == p.display.x1;
+  const bool whole = p.data.x0 == p.display.x0 && p.data.x1 == p.display.x1;
   const bool alpha = keep_alpha && light_.channels.alpha.has_value();
   for (const SpatialFilter* filter : stages_.filters)
-    out.emplace_back(*filter, p.data, descending, alpha, wraps_ && around, whole_);
+    out.emplace_back(*filter, p.data, descending, alpha, wraps_ && whole);
   return out;
 }
 

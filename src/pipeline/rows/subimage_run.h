@@ -68,7 +68,6 @@ class SubimageRun {
   const OutputSubimage& out_;
   const ImageStages& stages_;
   bool wraps_;
-  std::optional<Window> whole_;  // that the image is a tile of
   const LightPlanes* frame_ = nullptr;
   LightReader reader_;
   LightWriter writer_;
