@@ -170,8 +170,30 @@ ColourChannels any_in(const std::string& name, const Layer& layer) {
   return colour.kind == Kind::none ? grey_in(name, layer) : colour;
 }
 
+/// A layer's name without the view that ends it.
+std::string without_view(const std::string& layer, const std::vector<std::string>& stated) {
+  static const std::vector<std::string> usual = {"left", "right"};
+  const std::vector<std::string>& views = stated.empty() ? usual : stated;
+  const std::size_t dot = layer.rfind('.');
+  const std::string last = dot == std::string::npos ? layer : layer.substr(dot + 1);
+  if (std::find(views.begin(), views.end(), last) == views.end()) return layer;
+  return dot == std::string::npos ? "" : layer.substr(0, dot);
+}
+
+/// One of each that are views of the same.
+std::vector<ColourChannels> first_views(const std::vector<ColourChannels>& candidates,
+                                        const std::vector<std::string>& views) {
+  std::vector<ColourChannels> out;
+  std::set<std::string> seen;
+  for (const ColourChannels& c : candidates)
+    if (seen.insert(without_view(c.layer, views)).second) out.push_back(c);
+  return out;
+}
+
 /// The only one, or the only beauty; Error(usage) for several, none for none.
-ColourChannels only_one(const std::vector<ColourChannels>& candidates, const std::string& file) {
+ColourChannels only_one(const std::vector<ColourChannels>& all, const std::vector<std::string>& views,
+                        const std::string& file) {
+  const std::vector<ColourChannels> candidates = first_views(all, views);
   if (candidates.empty()) return {};
   if (candidates.size() == 1) return candidates.front();
   std::vector<std::string> names;
@@ -181,8 +203,9 @@ ColourChannels only_one(const std::vector<ColourChannels>& candidates, const std
     if (is_beauty_name(c.layer)) beauties.push_back(c);
   }
   if (beauties.size() == 1) return beauties.front();
-  throw Error(ExitCode::usage, file,
-              "has colour in several layers (" + name_list(names) + "); choose with --layer");
+  throw Error(
+      ExitCode::usage, file,
+      "has colour in several layers (" + name_list(names) + "); choose with --layer, or --layers A,B");
 }
 
 }  // namespace
@@ -233,6 +256,18 @@ std::vector<std::string> colour_layers(const Subimage& subimage) {
   return out;
 }
 
+std::vector<std::string> other_views(const Subimage& subimage, const std::string& layer) {
+  std::vector<std::string> out;
+  const std::string shown = without_view(layer, subimage.views);
+  for (const std::string& other : colour_layers(subimage))
+    if (other != layer && without_view(other, subimage.views) == shown) out.push_back(other);
+  return subimage.views.empty() && out.size() > 1 ? std::vector<std::string>{} : out;
+}
+
+bool names_a_view(const Subimage& subimage, const std::string& layer) {
+  return without_view(layer, subimage.views) != layer;
+}
+
 ColourChannels find_colour(const Subimage& subimage, const std::string& layer, const std::string& file) {
   const std::map<std::string, Layer> layers = layers_of(subimage.channels);
   if (!layer.empty()) {
@@ -249,9 +284,9 @@ ColourChannels find_colour(const Subimage& subimage, const std::string& layer, c
     if (const ColourChannels grey = grey_in(name, channels); grey.kind != Kind::none) greys.push_back(grey);
   }
   for (const std::vector<ColourChannels>* list : {&colours, &receptors})
-    if (!list->empty()) return only_one(*list, file);
+    if (!list->empty()) return only_one(*list, subimage.views, file);
   if (!greys.empty() && greys.front().layer.empty()) return greys.front();
-  return only_one(greys, file);
+  return only_one(greys, subimage.views, file);
 }
 
 }  // namespace scotopic

@@ -30,6 +30,14 @@ ColourChannels find_colour(const Subimage& subimage, const std::string& layer, c
 /// All layers of a picture that have R, G, B, or L, M, S, R, or Y; "" is the topmost.
 std::vector<std::string> colour_layers(const Subimage& subimage);
 
+/// Layers that hold the other views of what a layer shows, named as OpenEXR has it: "right" beside the
+/// topmost, "diffuse.right" beside "diffuse". Views are those of multiView; without it, left and right.
+/// Several of those are none: they are lights on the left and on the right.
+std::vector<std::string> other_views(const Subimage& subimage, const std::string& layer);
+
+/// Whether a layer's name is, or ends with, that of a view.
+bool names_a_view(const Subimage& subimage, const std::string& layer);
+
 /// Names of all channels of all pictures, each once, at most 16: "R, G, B, diffuse.R, ... (40 in all)".
 std::string channel_list(const std::vector<Subimage>& subimages);
 

@@ -68,8 +68,9 @@ struct Subimage {
   int part = 0;
   int level_x = 0;
   int level_y = 0;
-  std::string name;  ///< of the part, if it has one
-  std::string view;  ///< of a stereo subimage, if it is one of its parts
+  std::string name;                ///< of the part, if it has one
+  std::string view;                ///< of a stereo subimage, if it is one of its parts
+  std::vector<std::string> views;  ///< of a stereo image in one part (multiView), the default one first
   Window data;
   Window display;
   std::vector<Channel> channels;
@@ -83,6 +84,7 @@ struct Subimage {
   bool descending = false;
   /// False for deep or subsampled pixels, which can only be copied as they are.
   bool readable = true;
+  bool panorama = false;    ///< metadata of the photograph (GPano) say that it is 360 degrees wide
   double pixel_aspect = 1;  ///< width over height of a pixel
   /// Colour values are not multiplied by alpha.
   bool unassociated_alpha = false;

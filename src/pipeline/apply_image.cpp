@@ -1,9 +1,7 @@
 #include "pipeline/apply_image.h"
 
-#include <deque>
-
 #include "io/pixels/row_bands.h"
-#include "pipeline/rows/subimage_run.h"
+#include "pipeline/layer_runs.h"
 
 namespace scotopic {
 
@@ -19,17 +17,15 @@ NonFinitePixels write_subimages(PixelSource& source, const ImageLayout& layout, 
   std::int64_t done = 0;
   NonFinitePixels non_finite;
   Band in;
-  Band out;
   for (std::size_t i = 0; i < layout.outputs.size(); ++i) {
     if (layout.outputs[i].copy) {
       sink.copy(i);
       continue;
     }
-    const SubimageRun run(source, layout, config, stages, layout.outputs[i]);
     const Subimage& subimage = source.subimages()[layout.outputs[i].source];
     // OpenEXR wants the rows in the order that its header states, the other formats from the top.
     const bool descending = subimage.descending && layout.format == "openexr";
-    std::deque<AcuityRows> filters = run.filter_rows(descending, true);
+    LayerRuns run(source, layout, config, stages, layout.outputs[i], descending, sink.interleaved());
     const auto write = [&](const Band& seen) {
       sink.write(i, seen);
       done += seen.rows;
@@ -37,13 +33,7 @@ NonFinitePixels write_subimages(PixelSource& source, const ImageLayout& layout, 
     };
     each_band(subimage, descending, [&](int y0, int rows) {
       source.read(layout.outputs[i].source, y0, rows, in);
-      if (!filters.empty()) {
-        run.run(std::move(in), filters, out, sink.interleaved(), write);
-        in = Band();
-      } else {
-        run.run(in, out, sink.interleaved());
-        write(out);
-      }
+      run.run(std::move(in), write);
     });
     non_finite.add(run.non_finite());
   }

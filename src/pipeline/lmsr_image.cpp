@@ -1,7 +1,9 @@
 #include "pipeline/lmsr_image.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
+#include <deque>
 
 #include "base/error.h"
 #include "io/pixels/row_bands.h"
@@ -13,35 +15,27 @@ namespace {
 
 constexpr std::array<const char*, 4> receptor_names = {"L", "M", "S", "R"};
 
-bool is_receptor_name(const std::string& name, const std::string& prefix) {
-  for (const char* receptor : receptor_names)
-    if (name == prefix + receptor) return true;
-  return false;
-}
-
 /// One picture's light as L, M, S, R.
 class ReceptorRun {
  public:
   ReceptorRun(const PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-              const RodChoice& rods, const OutputSubimage& out)
+              const RodChoice& rods, const OutputSubimage& out, std::size_t layer)
       : picture_(source.subimages()[out.source]),
-        light_(*layout.light_of(out.source)),
+        light_(*layout.lights_of(out.source).at(layer)),
         out_(out),
         reader_(light_.channels, config, light_.space),
         xyz_from_rgb_(config.xyz_from_working()),
         rods_(rods),
+        first_(receptor_names.size() * layer),
         tally_(picture_) {
-    const std::vector<Channel>& from = source.subimages()[out.source].channels;
-    for (std::size_t o = receptor_names.size(); o < out.subimage.channels.size(); ++o)
-      for (std::size_t c = 0; c < from.size(); ++c)
-        if (!light_.channels.is_colour(c) &&
-            (from[c].name == out.subimage.channels[o].name ||
-             (light_.channels.alpha == c && out.subimage.channels[o].name == "A")))
-          others_.emplace_back(o, c);
+    if (layer == 0) find_others(layout.lights_of(out.source));
   }
 
-  void run(const Band& in, Band& out) const {
+  void allocate(const Band& in, Band& out) const {
     out.allocate_planar(out_.subimage.channels, in.y0, in.rows, in.width);
+  }
+
+  void run(const Band& in, const Band& out) const {
     parallel_rows(in.rows, 8, [&](int first, int last) {
       LightRow light(static_cast<std::size_t>(in.width));
       for (int row = first; row < last; ++row) run_row(in, row, light, out);
@@ -52,13 +46,26 @@ class ReceptorRun {
   NonFinitePixels non_finite() const { return tally_.found(); }
 
  private:
-  void run_row(const Band& in, int row, LightRow& light, Band& out) const {
+  void find_others(const std::vector<const LightSubimage*>& layers) {
+    const std::vector<Channel>& from = picture_.channels;
+    const auto is_light = [&](std::size_t c) {
+      return std::any_of(layers.begin(), layers.end(),
+                         [&](const LightSubimage* l) { return l->channels.is_colour(c); });
+    };
+    for (std::size_t o = receptor_names.size() * layers.size(); o < out_.subimage.channels.size(); ++o)
+      for (std::size_t c = 0; c < from.size(); ++c)
+        if (!is_light(c) && (from[c].name == out_.subimage.channels[o].name ||
+                             (light_.channels.alpha == c && out_.subimage.channels[o].name == "A")))
+          others_.emplace_back(o, c);
+  }
+
+  void run_row(const Band& in, int row, LightRow& light, const Band& out) const {
     const auto width = static_cast<std::size_t>(in.width);
     if (light_.channels.kind == ColourChannels::Kind::computed) {
       bool finite = true;
       for (std::size_t s = 0; s < receptor_names.size(); ++s) {
         const float* signals = in.signals[s].data() + width * static_cast<std::size_t>(row);
-        store_row(signals, width, out.channels[s].row(row));
+        store_row(signals, width, out.channels[first_ + s].row(row));
         finite = finite && !any_non_finite(signals, width);
       }
       if (!finite) {
@@ -71,7 +78,7 @@ class ReceptorRun {
       if (!reader_.receptors()) see(light);
       const std::vector<float>* planes[] = {&light.cone_l, &light.cone_m, &light.cone_s, &light.rod};
       for (std::size_t s = 0; s < receptor_names.size(); ++s)
-        store_row(planes[s]->data(), width, out.channels[s].row(row));
+        store_row(planes[s]->data(), width, out.channels[first_ + s].row(row));
     }
     for (const auto& [to, from] : others_)
       copy(in.channels[from].row(row), out.channels[to].row(row), light.r);
@@ -115,6 +122,7 @@ class ReceptorRun {
   LightReader reader_;
   Matrix3<double> xyz_from_rgb_;
   RodChoice rods_;
+  std::size_t first_;  // of the output's channels that this layer becomes
   std::vector<std::pair<std::size_t, std::size_t>> others_;  // output channel, source channel
   mutable NonFiniteTally tally_;
 };
@@ -126,13 +134,15 @@ void make_lmsr_layout(ImageLayout& layout, const std::string& output) {
     throw Error(ExitCode::usage, output, "receptor signals are written as OpenEXR only");
   for (OutputSubimage& out : layout.outputs) {
     if (out.copy) continue;
-    const std::string layer = layout.light_of(out.source)->channels.layer;
-    const std::string prefix = layer.empty() ? "" : layer + ".";
+    const std::vector<const LightSubimage*> layers = layout.lights_of(out.source);
+    std::vector<std::string> made;
+    for (const LightSubimage* light : layers)
+      for (const char* name : receptor_names)
+        made.push_back((light->channels.layer.empty() ? "" : light->channels.layer + ".") + name);
     std::vector<Channel> channels;
-    for (const char* name : receptor_names)
-      channels.push_back({prefix + name, out.subimage.channels[0].type});
-    for (std::size_t c = 3; c < out.subimage.channels.size(); ++c)
-      if (!is_receptor_name(out.subimage.channels[c].name, prefix))
+    for (const std::string& name : made) channels.push_back({name, out.subimage.channels[0].type});
+    for (std::size_t c = 3 * layers.size(); c < out.subimage.channels.size(); ++c)
+      if (std::find(made.begin(), made.end(), out.subimage.channels[c].name) == made.end())
         channels.push_back(out.subimage.channels[c]);
     out.subimage.channels = std::move(channels);
     out.new_space = true;
@@ -154,16 +164,19 @@ NonFinitePixels write_lmsr(PixelSource& source, const ImageLayout& layout, const
       sink->copy(i);
       continue;
     }
-    const ReceptorRun run(source, layout, config, rods, layout.outputs[i]);
+    std::deque<ReceptorRun> runs;
+    for (std::size_t layer = 0; layer < layout.lights_of(layout.outputs[i].source).size(); ++layer)
+      runs.emplace_back(source, layout, config, rods, layout.outputs[i], layer);
     const Subimage& subimage = source.subimages()[layout.outputs[i].source];
     each_band(subimage, subimage.descending, [&](int y0, int rows) {
       source.read(layout.outputs[i].source, y0, rows, in);
-      run.run(in, out);
+      runs.front().allocate(in, out);
+      for (const ReceptorRun& run : runs) run.run(in, out);
       sink->write(i, out);
       done += rows;
       if (progress) progress(done, total);
     });
-    non_finite.add(run.non_finite());
+    for (const ReceptorRun& run : runs) non_finite.add(run.non_finite());
   }
   sink->finish();
   source.require_unchanged();

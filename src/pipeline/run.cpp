@@ -107,9 +107,11 @@ void check_filter_memory(const SpatialFilter& filter, const OpenImage& image, co
                          std::int64_t frames) {
   for (const LightSubimage& light : image.layout.light) {
     const Subimage& subimage = image.source->subimages()[light.index];
-    check_limit(image.source->file(), "bytes of memory planned",
-                frames + planned_bytes(subimage) + acuity_bytes(filter, subimage, image.layout.wraps),
-                limits.memory, "--max-memory");
+    const auto layers = static_cast<std::int64_t>(image.layout.lights_of(light.index).size());
+    check_limit(
+        image.source->file(), "bytes of memory planned",
+        frames + planned_bytes(subimage) + layers * acuity_bytes(filter, subimage, image.layout.wraps),
+        limits.memory, "--max-memory");
   }
 }
 
@@ -310,6 +312,8 @@ ImageReport run_image(const ImageJob& job, ImageEnds& ends, const ImageSettings&
 SceneReport read_scene(const ImageJob& job, const ImageSettings& settings, Statistics wanted,
                        const Notes& notes) {
   OpenImage image = open_to_read(settings, job.input, notes);
+  describe_layout(*image.source, settings.config, image.layout, notes);
+  notes.note(image.source->file() + ": " + input_space_text(image.layout));
   return read_scene(image, job, settings, wanted, notes);
 }
 

@@ -22,9 +22,20 @@ std::string take(const std::string& file) {
   return text.str();
 }
 
+/// In the child.
+void take_limits(const RunLimits& limits) {
+  const auto set = [](auto what, unsigned long value) {
+    const struct rlimit both = {value, value};
+    setrlimit(what, &both);
+  };
+  if (limits.cpu_seconds > 0) set(RLIMIT_CPU, limits.cpu_seconds);
+  if (limits.cpu_seconds > 0) alarm(10 * limits.cpu_seconds);
+  if (limits.address_space > 0) set(RLIMIT_AS, limits.address_space);
+}
+
 }  // namespace
 
-Outcome run_program(const std::vector<std::string>& arguments) {
+Outcome run_program(const std::vector<std::string>& arguments, const RunLimits& limits) {
   const std::string base = ::testing::TempDir() + "/scotopic-cli-" + std::to_string(getpid());
   std::vector<std::string> words = {SCOTOPIC_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
@@ -38,6 +49,7 @@ Outcome run_program(const std::vector<std::string>& arguments) {
     const int err = open((base + ".err").c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
     dup2(out, STDOUT_FILENO);
     dup2(err, STDERR_FILENO);
+    take_limits(limits);
     execv(SCOTOPIC_PROGRAM, argv.data());
     _exit(127);
   }

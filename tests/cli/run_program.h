@@ -13,8 +13,14 @@ struct Outcome {
   long peak_kib = 0;  ///< resident memory
 };
 
+/// Of the program's process; 0: none. A program that waits for ever is ended after ten times its seconds.
+struct RunLimits {
+  unsigned cpu_seconds = 0;
+  unsigned long address_space = 0;  ///< bytes
+};
+
 /// Arguments after the program's name; no shell in between. $OCIO is unset.
-Outcome run_program(const std::vector<std::string>& arguments);
+Outcome run_program(const std::vector<std::string>& arguments, const RunLimits& limits = {});
 
 /// A folder of the test's own, emptied.
 std::string work_folder();

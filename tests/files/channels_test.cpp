@@ -88,15 +88,6 @@ TEST(Channels, both_views_of_stereo_parts_are_light) {
   EXPECT_NE(test::pixel_of(test::place("out.exr"), rgb, 0)[0], 0.4f);
 }
 
-TEST(Channels, the_other_view_of_a_single_part_is_said_to_stay) {
-  std::vector<FlatChannel> channels = colours("", 0.4f, 0.2f, 0.1f);
-  for (const FlatChannel& c : colours("right.", 0.4f, 0.2f, 0.1f)) channels.push_back(c);
-  const test::Run done = run({{"", channels}});
-  ASSERT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_TRUE(says(done, "right")) << done.err;
-  EXPECT_EQ(run({{"", channels}}, {"--layer", "right"}).exit_code, 0);
-}
-
 TEST(Channels, colours_by_other_names_are_found) {
   const std::vector<std::vector<std::string>> names = {
       {"red", "green", "blue"}, {"beauty.red", "beauty.green", "beauty.blue"}, {"r", "g", "b"}};

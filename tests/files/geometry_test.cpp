@@ -96,13 +96,24 @@ TEST(Geometry, primaries_and_xyz_of_radiance_are_understood) {
   ASSERT_EQ(test::apply(test::place("in.hdr"), test::place("out.exr"), in_709).exit_code, 0);
   // Adobe RGB's red in BT.709: 1.39836 times as bright, and no green or blue.
   EXPECT_NEAR(test::pixel_of(test::place("out.exr"), {"R"})[0], 1.39836 / 8, 3e-3);
-  // OpenImageIO reads no xyze: refused in a line, or right.
-  test::write_bytes(test::place("in.hdr"), radiance("FORMAT=32-bit_rle_xyze\n", "-Y 2 +X 2"));
-  const test::Run done = test::apply(test::place("in.hdr"), test::place("out.exr"));
-  if (done.exit_code == 0)
-    EXPECT_NEAR(test::pixel_of(test::place("out.exr"), {"R"})[0], 3.24097 / 8, 2e-2);
-  else
-    EXPECT_EQ(done.exit_code, 3) << done.err;
+}
+
+TEST(Geometry, xyz_of_radiance_is_cie_xyz) {
+  // D65's white of Y 1/4 in pixel 1; whatever primaries are stated have no say; exposure and order do.
+  const std::string head =
+      "EXPOSURE=0.5\nFORMAT=32-bit_rle_xyze\nPRIMARIES=0.64 0.33 0.21 0.71 0.15 0.06 0.3127 0.3290\n";
+  const std::vector<std::pair<std::string, int>> orders = {{"-Y 1 +X 2", 0}, {"-Y 1 -X 2", 1}};
+  for (const auto& [order, at] : orders) {
+    // Mantissas of exponent 128: n/256.
+    test::write_bytes(test::place("in.hdr"), "#?RADIANCE\n" + head + "\n" + order + "\n" +
+                                                 std::string({61, 64, 70, '\x80', 0, 0, 0, 0}));
+    const test::Run done = test::apply(test::place("in.hdr"), test::place("out.exr"), {"-d", "float"});
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_NE(done.err.find("CIE XYZ"), std::string::npos) << done.err;
+    // Twice the light; white within the steps of an 8-bit mantissa.
+    for (const float v : test::pixel_of(test::place("out.exr"), {"R", "G", "B"}, 0, at))
+      EXPECT_NEAR(v, 0.5, 0.008);
+  }
 }
 
 TEST(Geometry, tiles_of_any_compression_and_all_levels_are_written) {

@@ -1,5 +1,6 @@
 #include "cli/options/image_options.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
@@ -38,7 +39,10 @@ void add_input_options(CLI::App& verb, ImageOptions& o) {
       "Of the input; else what the file says (identifier, chromaticities, profile, tags), else the config's "
       "rules",
       "NAME");
-  add("--layer", o.layer, "Which layer or part holds the colour", "NAME");
+  add("--layer", o.layer, "Which layer, part or view holds the colour", "NAME");
+  add("--layers", o.layers, "Several of them, treated alike; RGB: the topmost. Adaptation is the beauty's",
+      "A,B,...");
+  verb.get_option("--layers")->excludes("--layer");
   const auto limit = [&](const char* name, std::int64_t& value, const char* text) {
     add_limit(verb, name, value, text);
   };
@@ -100,9 +104,22 @@ ColourConfig config_at(const std::string& file, const ImageOptions& o) {
   return ColourConfig::from_file(file, o.limits, working_primaries(o.working_primaries));
 }
 
+/// Names between commas.
+std::vector<std::string> layer_list(const std::string& text) {
+  std::vector<std::string> out;
+  for (std::size_t at = 0; at <= text.size() && !text.empty();) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    if (comma == at) fail_value("--layers", text, "names of layers, parts or views between commas");
+    out.push_back(text.substr(at, comma - at));
+    at = comma + 1;
+  }
+  return out;
+}
+
 ImageRequest parse(const ImageOptions& o) {
   ImageRequest out;
   out.layer = o.layer;
+  out.layers = layer_list(o.layers);
   if (!o.colourspace.empty()) out.colourspace = o.colourspace;
   if (!o.output_colourspace.empty()) out.output_colourspace = o.output_colourspace;
   if (!o.type.empty())

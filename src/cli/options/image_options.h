@@ -15,12 +15,13 @@ struct ImageOptions {
   std::string colourspace;
   std::string output_colourspace;
   std::string layer;
+  std::string layers;
   std::string type;
   std::string exposure = "0";
   Limits limits;
 };
 
-/// Of the input: --config, --working-primaries, --colorspace, --layer, --max-...
+/// Of the input: --config, --working-primaries, --colorspace, --layer, --layers, --max-...
 void add_input_options(CLI::App& verb, ImageOptions& options);
 /// Of configs and LUTs alone: --max-config-size, --max-lut-size. Part of add_input_options().
 void add_config_limits(CLI::App& verb, Limits& limits);

@@ -31,7 +31,8 @@ struct ColourTags {
   std::optional<Xy> adopted_neutral;  ///< adoptedNeutral: what counts as white
   std::shared_ptr<const std::vector<std::byte>> icc;
   std::optional<CodePoints> code_points;
-  std::optional<double> gamma;  ///< that decodes: 1/gAMA
+  std::optional<double> gamma;  ///< that decodes: 1/gAMA; of Radiance's GAMMA the one above 1
+  bool radiance = false;        ///< of a Radiance picture, where they have names of their own
   bool srgb = false;            ///< PNG's chunk sRGB
   ExifColour exif = ExifColour::none;
 };

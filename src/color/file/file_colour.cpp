@@ -89,9 +89,11 @@ std::optional<Statement> by_gamma(const ColourTags& tags, const std::string& fil
                           : tags.primaries ? xyz_d65_from_rgb(*tags.primaries)
                                            : gamut_xyz_matrix("rec709").value();
   const std::string of = known || !tags.primaries ? "" : ", the file's chromaticities";
-  return Statement{
-      space_of(encoding, describe(encoding.curve) + of, config),
-      fmt::format("the file's gAMA {:.5g}{}", 1 / *tags.gamma, tags.primaries ? " and cHRM" : "")};
+  return Statement{space_of(encoding, describe(encoding.curve) + of, config),
+                   fmt::format("the file's {} {:.5g}{}", tags.radiance ? "GAMMA" : "gAMA", 1 / *tags.gamma,
+                               !tags.primaries ? ""
+                               : tags.radiance ? " and PRIMARIES"
+                                               : " and cHRM")};
 }
 
 std::optional<Statement> by_profile(const ColourTags& tags, const std::string& file) {

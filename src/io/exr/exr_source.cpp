@@ -173,6 +173,7 @@ void ExrSource::add_subimages(int part) {
   subimage.name = header.hasName() ? header.name() : "";
   subimage.pixel_aspect = usable_aspect(static_cast<double>(header.pixelAspectRatio()));
   subimage.view = header.hasView() ? header.view() : "";
+  if (Imf::hasMultiView(header)) subimage.views = Imf::multiView(header);
   subimage.data = window_of(header.dataWindow());
   subimage.display = window_of(header.displayWindow());
   subimage.readable = !is_deep(header);

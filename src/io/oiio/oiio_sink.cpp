@@ -227,9 +227,11 @@ class OiioSink : public PixelSink {
     spec.attribute("Orientation", 1);  // sources are upright
     erase_if(spec, describes_pixels);
     spec.attribute("ImageDescription", without_pixel_facts(spec.get_string_attribute("ImageDescription")));
-    if (out.new_tags || out.tags.icc) erase_if(spec, describes_colours);
-    if (out.new_tags && out.tags.srgb) spec.attribute("oiio:ColorSpace", "sRGB");
-    if (out.new_tags && out.tags.linear) spec.attribute("oiio:ColorSpace", "Linear");
+    if (const bool anew = out.new_tags || out.tags.icc; anew) {
+      erase_if(spec, describes_colours);
+      if (out.tags.srgb) spec.attribute("oiio:ColorSpace", "sRGB");
+      if (out.tags.linear) spec.attribute("oiio:ColorSpace", "Linear");
+    }
     if (needs_profile(out.tags)) set_profile(spec, *out.tags.icc);
     spec.attribute("oiio:UnassociatedAlpha", subimage.unassociated_alpha ? 1 : 0);
     set_stamps(spec, format_, out.stamps);

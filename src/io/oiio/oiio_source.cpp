@@ -64,6 +64,31 @@ std::int64_t bytes_held_by_oiio(const OIIO::ImageSpec& spec) {
   return pixel * spec.tile_width * std::max(1, spec.tile_height);
 }
 
+/// A Radiance file that says of its format what OpenImageIO's reader knows: pixels of xyze are stored as
+/// those of rgbe are.
+class RadianceAsRgbe : public OIIO::Filesystem::IOFile {
+ public:
+  RadianceAsRgbe(const std::string& file, std::uint64_t at) : IOFile(file, Read), at_(at) {}
+
+  std::size_t read(void* to, std::size_t size) override {
+    const auto from = static_cast<std::uint64_t>(tell());
+    return patched(to, from, IOFile::read(to, size));
+  }
+  std::size_t pread(void* to, std::size_t size, std::int64_t from) override {
+    return patched(to, static_cast<std::uint64_t>(from), IOFile::pread(to, size, from));
+  }
+
+ private:
+  std::size_t patched(void* to, std::uint64_t from, std::size_t got) const {
+    constexpr char rgbe[] = "rgbe";
+    for (std::uint64_t i = 0; i < 4; ++i)
+      if (at_ + i >= from && at_ + i < from + got) static_cast<char*>(to)[at_ + i - from] = rgbe[i];
+    return got;
+  }
+
+  std::uint64_t at_;
+};
+
 /// Grey images name their channel in many ways; EXR's is Y.
 void name_grey(std::vector<Channel>& channels) {
   const bool alpha = channels.size() == 2 && channels[1].name == "A";
@@ -81,12 +106,18 @@ OiioSource::OiioSource(const std::string& file, const std::string& format, const
   const StderrHeld held;
   watch(file);
   scans_ = scan_image(file, format);
+  if (!scans_.empty() && scans_.front().xyze_at > 0) read_xyze_as_rgbe(scans_.front().xyze_at);
   if (!input_->open(file, spec, hints)) fail("is not a valid " + format + " file: " + input_->geterror());
   for (int page = 0; input_->seek_subimage(page, 0); ++page) {
     add_subimage(page, input_->spec());
     check_limits(limits);
   }
   (void)input_->geterror();  // "no such page" ended the loop
+}
+
+void OiioSource::read_xyze_as_rgbe(std::uint64_t at) {
+  proxy_ = std::make_unique<RadianceAsRgbe>(file(), at);
+  input_->set_ioproxy(proxy_.get());
 }
 
 void OiioSource::add_subimage(int page, const OIIO::ImageSpec& spec) {
@@ -112,8 +143,8 @@ void OiioSource::add_subimage(int page, const OIIO::ImageSpec& spec) {
   // Of Radiance's order of pixels OpenImageIO tells by the same name.
   scan.orientation = spec.get_int_attribute("Orientation", scan.orientation);
   if (scan.orientation < 1 || scan.orientation > 8) scan.orientation = 1;
-  subimage.pixel_aspect =
-      usable_aspect(static_cast<double>(spec.get_float_attribute("PixelAspectRatio", 1.0f)));
+  subimage.pixel_aspect = usable_aspect(
+      static_cast<double>(spec.get_float_attribute("PixelAspectRatio", 1.0f)) * scan.pixel_aspect);
   if (turns(scan.orientation)) subimage.pixel_aspect = 1 / subimage.pixel_aspect;
   set_colour(subimage, scan);
   set_upright(subimage, scan);
@@ -122,12 +153,16 @@ void OiioSource::add_subimage(int page, const OIIO::ImageSpec& spec) {
 }
 
 void OiioSource::set_colour(Subimage& subimage, ImageScan& scan) const {
-  if (scan.xyz)
+  if (scan.xyze_at > 0)
     for (std::size_t c = 0; c < 3 && c < subimage.channels.size(); ++c)
       subimage.channels[c].name = std::string(1, "XYZ"[c]);
   subimage.colour = scan.colour;
+  subimage.panorama = scan.panorama && !turns(scan.orientation);
   if (scan.gain_map)
     subimage.notes.push_back("its gain map is left out: the picture is the rendition for SDR displays");
+  else if (scan.images_behind > 0)
+    subimage.notes.push_back(std::to_string(scan.images_behind) +
+                             " more images of its Multi-Picture Format are left out");
   if (scan.exposure != 1 || scan.correction != std::array<double, 3>{1, 1, 1})
     subimage.notes.push_back("values are divided by its EXPOSURE and COLORCORR: they are light again");
 }

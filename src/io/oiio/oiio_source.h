@@ -1,6 +1,7 @@
 // TIFF, PNG, JPEG and HDR files through OpenImageIO.
 #pragma once
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <cstdint>
@@ -24,6 +25,7 @@ class OiioSource : public PixelSource {
   const OIIO::ImageSpec& spec(std::size_t index) const { return specs_[index]; }
 
  private:
+  void read_xyze_as_rgbe(std::uint64_t at);
   void add_subimage(int page, const OIIO::ImageSpec& spec);
   void set_colour(Subimage& subimage, ImageScan& scan) const;
   void set_upright(Subimage& subimage, const ImageScan& scan) const;
@@ -31,6 +33,7 @@ class OiioSource : public PixelSource {
   void read_upright(std::size_t index, int y0, int rows, std::byte* out);
   void correct_exposure(const ImageScan& scan, Band& band) const;
 
+  std::unique_ptr<OIIO::Filesystem::IOProxy> proxy_;  // outlives the input
   std::unique_ptr<OIIO::ImageInput> input_;
   std::vector<OIIO::ImageSpec> specs_;  // one for each subimage
   std::vector<ImageScan> scans_;        // likewise

@@ -60,6 +60,21 @@ class DepthCount {
   std::size_t at_ = 0;
 };
 
+/// Of a property, whether it is written as an attribute or as an element; empty: it is not there.
+std::string_view xmp_value(std::string_view text, std::string_view name) {
+  const std::size_t at = text.find(name);
+  if (at == std::string_view::npos) return {};
+  const std::size_t from = text.find_first_of("\"'>", at + name.size());
+  if (from == std::string_view::npos) return {};
+  return text.substr(from + 1, text.find_first_of("\"'<", from + 1) - from - 1);
+}
+
+/// "Photo Sphere XMP Metadata" (Google): a whole turn, where it was not cropped.
+bool is_whole_panorama(std::string_view text) {
+  return xmp_value(text, "GPano:ProjectionType") == "equirectangular" &&
+         xmp_value(text, "GPano:FullPanoWidthPixels") == xmp_value(text, "GPano:CroppedAreaImageWidthPixels");
+}
+
 }  // namespace
 
 void keep_profile(std::vector<std::byte> profile, const std::string& file, ImageScan& scan) {
@@ -72,8 +87,9 @@ void check_xmp(std::span<const std::byte> packet, const std::string& file, Image
   const std::string_view text(reinterpret_cast<const char*>(packet.data()), packet.size());
   if (DepthCount(text).deepest() > deepest)
     throw Error(ExitCode::input, file, "is damaged: its XMP nests deeper than 64 elements");
-  for (const char* sign : {"hdrgm:", "HDRGainMap", "GainMap"})
+  for (const char* sign : {"hdrgm:", "GainMap", "hdrgainmap"})  // Adobe; Google and Apple; Apple
     scan.gain_map = scan.gain_map || text.find(sign) != std::string_view::npos;
+  scan.panorama = scan.panorama || is_whole_panorama(text);
 }
 
 std::vector<ImageScan> scan_image(const std::string& file, const std::string& format) {

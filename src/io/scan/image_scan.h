@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,8 +19,11 @@ struct ImageScan {
   int orientation = 1;                        ///< Exif's 1 to 8
   double exposure = 1;                        ///< pixels are this times the light (Radiance HDR), and
   std::array<double, 3> correction{1, 1, 1};  ///< these, of each channel
-  bool xyz = false;                           ///< channels are X, Y, Z (Radiance xyze)
-  bool gain_map = false;                      ///< a second picture makes an HDR one of it
+  double pixel_aspect = 1;    ///< width over height of a pixel, as Radiance's PIXASPECT has it
+  std::uint64_t xyze_at = 0;  ///< channels are X, Y, Z (Radiance xyze): where the file says it
+  bool gain_map = false;      ///< a second picture makes an HDR one of it
+  int images_behind = 0;      ///< in a JPEG's Multi-Picture Format
+  bool panorama = false;      ///< all of a lat-long one (GPano)
 };
 
 /// Throws Error(input) for a damaged or hostile ICC profile or XMP packet, and for pixels that are no RGB
@@ -36,11 +40,14 @@ ImageScan scan_hdr(const std::string& file);
 /// goes.
 void read_exif(std::span<const std::byte> block, ImageScan& scan);
 
+/// Where the images behind the first begin, by the index of a Multi-Picture Format (a TIFF of its own).
+std::vector<std::uint64_t> offsets_of_images(std::span<const std::byte> index);
+
 /// Throws Error(input) for a damaged profile, else keeps it.
 void keep_profile(std::vector<std::byte> profile, const std::string& file, ImageScan& scan);
 
 /// Throws Error(input) for XML whose elements nest deeper than 64 (recursion would end the stack); sets
-/// gain_map.
+/// gain_map and panorama.
 void check_xmp(std::span<const std::byte> packet, const std::string& file, ImageScan& scan);
 
 }  // namespace scotopic

@@ -13,6 +13,7 @@ namespace {
 using Bytes = std::vector<std::byte>;
 
 constexpr std::uint64_t app1 = 0xe1, app2 = 0xe2;
+constexpr int most_images = 64;  // of a Multi-Picture Format, that are looked into
 
 bool begins(const Bytes& segment, std::string_view with) {
   return segment.size() >= with.size() &&
@@ -27,7 +28,8 @@ std::span<const std::byte> after(const Bytes& segment, std::string_view head) {
 using namespace std::string_view_literals;
 
 constexpr std::string_view exif = "Exif\0\0"sv, xmp = "http://ns.adobe.com/xap/1.0/\0"sv,
-                           icc = "ICC_PROFILE\0"sv, gain_map = "urn:iso:std:iso:ts:21496:-1\0"sv;
+                           icc = "ICC_PROFILE\0"sv, gain_map = "urn:iso:std:iso:ts:21496:-1\0"sv,
+                           multi_picture = "MPF\0"sv;
 
 /// Frame headers: all SOF but those of tables (DHT, JPG, DAC).
 bool is_frame(std::uint64_t marker) {
@@ -41,13 +43,10 @@ Bytes joined(const std::map<std::uint64_t, Bytes>& pieces) {
   return out;
 }
 
-}  // namespace
-
-ImageScan scan_jpeg(const std::string& file) {
-  ImageScan scan;
-  FileBytes bytes(file);
-  std::map<std::uint64_t, Bytes> profile;
-  for (std::uint64_t at = 2; at + 4 <= bytes.size();) {
+/// Marker segments from `at`, where SOI is, to the first scan.
+template <typename Use>
+void each_segment(FileBytes& bytes, std::uint64_t at, Use use) {
+  for (at += 2; at + 4 <= bytes.size();) {
     const Bytes head = bytes.at(at, 4);
     const std::uint64_t marker = number_at(head, 1, 1, true), size = number_at(head, 2, 2, true);
     if (head[0] != std::byte{0xff} || marker == 0xda || marker == 0xd9) break;
@@ -57,18 +56,48 @@ ImageScan scan_jpeg(const std::string& file) {
       continue;
     }
     if (size < 2) break;
-    const Bytes segment =
-        marker == app1 || marker == app2 || is_frame(marker) ? bytes.at(at + 4, size - 2) : Bytes{};
+    const bool wanted = marker == app1 || marker == app2 || is_frame(marker);
+    use(marker, at + 4, wanted ? bytes.at(at + 4, size - 2) : Bytes{});
+    at += 2 + size;
+  }
+}
+
+/// Whether one image of a Multi-Picture Format says that it is a gain map, or has one.
+bool tells_of_gain_map(FileBytes& bytes, std::uint64_t start, const std::string& file) {
+  ImageScan scan;
+  each_segment(bytes, start, [&](std::uint64_t marker, std::uint64_t, const Bytes& segment) {
+    if (marker == app1 && begins(segment, xmp)) check_xmp(after(segment, xmp), file, scan);
+    if (marker == app2 && begins(segment, gain_map)) scan.gain_map = true;
+  });
+  return scan.gain_map;
+}
+
+/// Images behind the first (CIPA DC-007); their offsets count from behind the identifier.
+void scan_multi_picture(FileBytes& bytes, const Bytes& segment, std::uint64_t at, const std::string& file,
+                        ImageScan& scan) {
+  for (const std::uint64_t offset : offsets_of_images(after(segment, multi_picture))) {
+    if (++scan.images_behind > most_images) break;
+    if (tells_of_gain_map(bytes, at + multi_picture.size() + offset, file)) scan.gain_map = true;
+  }
+}
+
+}  // namespace
+
+ImageScan scan_jpeg(const std::string& file) {
+  ImageScan scan;
+  FileBytes bytes(file);
+  std::map<std::uint64_t, Bytes> profile;
+  each_segment(bytes, 0, [&](std::uint64_t marker, std::uint64_t at, const Bytes& segment) {
     if (is_frame(marker) && number_at(segment, 5, 1, true) == 4)
       throw Error(ExitCode::input, file, "holds CMYK, not RGB: convert it first, with its profile");
     if (marker == app1 && begins(segment, exif)) read_exif(after(segment, exif), scan);
     if (marker == app1 && begins(segment, xmp)) check_xmp(after(segment, xmp), file, scan);
     if (marker == app2 && begins(segment, gain_map)) scan.gain_map = true;
+    if (marker == app2 && begins(segment, multi_picture)) scan_multi_picture(bytes, segment, at, file, scan);
     if (marker == app2 && begins(segment, icc) && segment.size() >= icc.size() + 2)
       profile.emplace(number_at(segment, icc.size(), 1, true),
                       Bytes(segment.begin() + icc.size() + 2, segment.end()));
-    at += 2 + size;
-  }
+  });
   if (!profile.empty()) keep_profile(joined(profile), file, scan);
   return scan;
 }

@@ -89,6 +89,8 @@ void read_chunk(const std::string& type, const Bytes& chunk, const std::string& 
     read_chromaticities(chunk, tags);
   } else if (type == "sRGB") {
     tags.srgb = true;
+  } else if (type == "gmAP") {  // of the fourth edition, whose gdAT follows it
+    scan.gain_map = true;
   } else if (type == "eXIf") {
     read_exif(chunk, scan);
   } else {
@@ -100,7 +102,7 @@ void read_chunk(const std::string& type, const Bytes& chunk, const std::string& 
 
 ImageScan scan_png(const std::string& file) {
   static constexpr std::string_view wanted[] = {"iCCP", "cICP", "gAMA", "cHRM", "sRGB",
-                                                "eXIf", "tEXt", "zTXt", "iTXt"};
+                                                "eXIf", "gmAP", "tEXt", "zTXt", "iTXt"};
   ImageScan scan;
   FileBytes bytes(file);
   for (std::uint64_t at = signature_size; at + 12 <= bytes.size();) {

@@ -16,17 +16,31 @@ using Read = std::function<Bytes(std::uint64_t at, std::uint64_t count)>;
 constexpr std::uint64_t most_entries = 4096, most_pages = 65536, most_value = std::uint64_t{64} << 20;
 
 enum Tag : std::uint64_t {
+  subfile_type = 254,
+  bits_per_sample = 258,
   photometric = 262,
   orientation = 274,
   white_point = 318,
   primary_chromaticities = 319,
+  sub_directories = 330,
   xmp = 700,
   exif_directory = 34665,
   icc_profile = 34675,
   exif_colour_space = 40961,
   interoperability_directory = 40965,
   interoperability_index = 1,
+  multi_picture_entries = 0xb002,
+  dng_version = 50706,
 };
+
+Read in_memory(std::span<const std::byte> block) {
+  return [block](std::uint64_t at, std::uint64_t count) {
+    if (at >= block.size()) return Bytes{};
+    const auto piece = block.subspan(static_cast<std::size_t>(at));
+    return Bytes(piece.begin(),
+                 piece.begin() + static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(count, piece.size())));
+  };
+}
 
 /// Bytes of a value of each field type.
 std::uint64_t size_of_type(std::uint64_t type) {
@@ -126,6 +140,38 @@ void require_rgb(int value, const std::string& file) {
   if (what) throw Error(ExitCode::input, file, std::string("holds ") + what + ", not RGB: convert it first");
 }
 
+[[noreturn]] void fail_raw(const std::string& file) {
+  throw Error(ExitCode::input, file, "is a camera's raw file: develop it first, to linear TIFF or OpenEXR");
+}
+
+/// A raw file is a TIFF whose first directory is a thumbnail, or a mosaic.
+void refuse_raw(const Directories& tiff, const std::vector<Directories::Field>& fields,
+                const std::string& file) {
+  constexpr int mosaic = 32803, linear_raw = 34892, reduced = 1;
+  bool raw = false, small = false, more = false;
+  for (const Directories::Field& field : fields) {
+    const bool number = field.tag == photometric || field.tag == subfile_type;
+    const int value = number ? static_cast<int>(tiff.value(field)) : 0;
+    raw = raw || field.tag == dng_version ||
+          (field.tag == photometric && (value == mosaic || value == linear_raw));
+    small = small || (field.tag == subfile_type && (value & reduced) != 0);
+    more = more || field.tag == sub_directories;
+  }
+  if (raw || (small && more)) fail_raw(file);
+}
+
+/// OpenImageIO turns such values round where they are of 8 bits or less; of more it leaves them.
+void refuse_white_zero(const Directories& tiff, const std::vector<Directories::Field>& fields,
+                       const std::string& file) {
+  bool white_zero = false, deep = false;
+  for (const Directories::Field& field : fields) {
+    if (field.tag == photometric) white_zero = tiff.value(field) == 0;
+    if (field.tag == bits_per_sample) deep = tiff.value(field) > 8;
+  }
+  if (white_zero && deep)
+    throw Error(ExitCode::input, file, "holds grey of more than 8 bits whose 0 is white: invert it first");
+}
+
 ImageScan scan_directory(const Directories& tiff, const std::vector<Directories::Field>& fields,
                          const std::string& file) {
   ImageScan scan;
@@ -155,22 +201,35 @@ ImageScan scan_directory(const Directories& tiff, const std::vector<Directories:
 std::vector<ImageScan> scan_tiff(const std::string& file) {
   FileBytes bytes(file);
   const Directories tiff([&](std::uint64_t at, std::uint64_t count) { return bytes.at(at, count); });
+  constexpr std::uint64_t canon = 0x4352;  // "CR" of a CR2; no directory is that long
+  if (number_at(bytes.at(8, 2), 0, 2, true) == canon) fail_raw(file);
   std::vector<ImageScan> pages;
   for (std::uint64_t at = tiff.first(), next = 0; at != 0 && pages.size() < most_pages; at = next) {
     const std::vector<Directories::Field> fields = tiff.fields(at, next);
+    if (pages.empty()) refuse_raw(tiff, fields, file);
+    refuse_white_zero(tiff, fields, file);
     pages.push_back(scan_directory(tiff, fields, file));
     if (next <= at && pages.size() > 1024) break;  // goes round
   }
   return pages;
 }
 
+std::vector<std::uint64_t> offsets_of_images(std::span<const std::byte> index) {
+  constexpr std::size_t entry_bytes = 16, offset_at = 8;
+  const Directories tiff(in_memory(index));
+  const bool big_endian = !index.empty() && index[0] == std::byte{'M'};
+  std::vector<std::uint64_t> out;
+  std::uint64_t next = 0;
+  for (const Directories::Field& field : tiff.fields(tiff.first(), next)) {
+    const Bytes entries = field.tag == multi_picture_entries ? tiff.bytes(field) : Bytes{};
+    for (std::size_t at = entry_bytes; at + entry_bytes <= entries.size(); at += entry_bytes)
+      out.push_back(number_at(entries, at + offset_at, 4, big_endian));
+  }
+  return out;
+}
+
 void read_exif(std::span<const std::byte> block, ImageScan& scan) {
-  const Directories tiff([&](std::uint64_t at, std::uint64_t count) {
-    if (at >= block.size()) return Bytes{};
-    const auto piece = block.subspan(static_cast<std::size_t>(at));
-    return Bytes(piece.begin(),
-                 piece.begin() + static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(count, piece.size())));
-  });
+  const Directories tiff(in_memory(block));
   std::uint64_t next = 0;
   for (const Directories::Field& field : tiff.fields(tiff.first(), next)) {
     if (field.tag == orientation) scan.orientation = static_cast<int>(tiff.value(field));

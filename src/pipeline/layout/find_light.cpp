@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 
 #include "base/error.h"
-#include "base/names.h"
 #include "color/file/file_colour.h"
+#include "pipeline/layout/light_notes.h"
 #include "pipeline/rows/row_codec.h"
 
 namespace scotopic {
@@ -46,55 +47,14 @@ ColourChannels colour_of(const PixelSource& source, std::size_t index, const std
   }
 }
 
-/// Names that --layer could have meant.
-std::vector<std::string> layer_names(const PixelSource& source) {
-  std::set<std::string> names;
-  for (const Subimage& subimage : source.subimages()) {
-    if (!subimage.name.empty()) names.insert(subimage.name);
-    for (const std::string& layer : colour_layers(subimage))
-      if (!layer.empty()) names.insert(layer);
-  }
-  return {names.begin(), names.end()};
-}
-
-/// Of the file's channels, those that could be bands of a spectrum which is not read.
-std::vector<std::string> spectral_look_alikes(const Subimage& subimage) {
-  std::vector<std::string> out;
-  for (const Channel& channel : subimage.channels)
-    if (looks_spectral(channel.name)) out.push_back(channel.name);
-  return out;
-}
-
-[[noreturn]] void fail_without_light(const PixelSource& source, const std::string& layer,
-                                     const std::vector<std::string>& data) {
-  const std::string has = "; it has " + channel_list(source.subimages());
-  if (!layer.empty())
-    throw Error(ExitCode::usage, source.file(),
-                "has no layer or part '" + layer + "' with R, G, B or L, M, S, R or Y" +
-                    did_you_mean(layer, layer_names(source)) + has);
-  if (!data.empty())
-    throw Error(ExitCode::input, source.file(),
-                "holds data, not light (" + name_list(data) + "): --layer takes one for light");
-  for (const Subimage& subimage : source.subimages()) {
-    if (!subimage.readable)
-      throw Error(ExitCode::input, source.file(),
-                  "has colour only in deep or subsampled channels, which are not supported" + has);
-    if (!spectral_look_alikes(subimage).empty())
-      throw Error(
-          ExitCode::input, source.file(),
-          "has bands of a form that is not read: name them S0.500,0nm (or T.) as spectral OpenEXR has it" +
-              has);
-  }
-  throw Error(ExitCode::input, source.file(), "has no channels R, G, B, nor L, M, S, R, nor Y" + has);
-}
-
-/// The views of a stereo subimage: each part has one of its own.
-bool are_views(const PixelSource& source, const std::vector<LightSubimage>& light) {
+/// The views of a stereo image: each of these parts has one of its own.
+bool are_views(const PixelSource& source, const std::vector<LightSubimage>& light, const std::set<int>& of) {
   static const std::set<std::string> usual = {"left", "right", "l", "r", "center", "centre"};
   std::set<std::string> views;
   std::set<int> parts;
   for (const LightSubimage& p : light) {
     const Subimage& subimage = source.subimages()[p.index];
+    if (!of.count(subimage.part)) continue;
     const std::string view = !subimage.view.empty()       ? subimage.view
                              : usual.count(subimage.name) ? subimage.name
                                                           : "";
@@ -117,41 +77,13 @@ void keep_subimages(const PixelSource& source, std::vector<LightSubimage>& light
     if (parts.insert(subimage.part).second) names.push_back(name);
     if (is_beauty_name(name)) beauties.insert(subimage.part);
   }
-  if (parts.size() < 2 || source.format() != "openexr" || are_views(source, light)) return;
-  if (beauties.size() != 1)
+  if (parts.size() < 2 || source.format() != "openexr" || are_views(source, light, parts)) return;
+  if (beauties.empty() || (beauties.size() > 1 && !are_views(source, light, beauties)))
     throw Error(ExitCode::usage, source.file(),
-                "has several parts that could be its light (" + name_list(names) + "); choose with --layer");
-  std::erase_if(
-      light, [&](const LightSubimage& p) { return source.subimages()[p.index].part != *beauties.begin(); });
-}
-
-/// What stays as it is though it has names of colour, and what is not read of spectra.
-std::vector<std::string> notes_of(const PixelSource& source, const std::vector<LightSubimage>& light) {
-  std::vector<std::string> left, bands, notes;
-  std::set<int> parts;
-  for (std::size_t i = 0; i < source.subimages().size(); ++i) {
-    const Subimage& subimage = source.subimages()[i];
-    if (subimage.level_x != 0 || subimage.level_y != 0) continue;
-    const auto chosen =
-        std::find_if(light.begin(), light.end(), [&](const LightSubimage& p) { return p.index == i; });
-    if (chosen == light.end()) {
-      if (parts.insert(subimage.part).second && !subimage.name.empty()) left.push_back(subimage.name);
-      continue;
-    }
-    for (const std::string& layer : colour_layers(subimage))
-      if (layer != chosen->channels.layer && chosen->channels.kind != Kind::computed)
-        left.push_back(layer.empty() ? "R, G, B" : layer);
-    for (const std::string& band : spectral_look_alikes(subimage)) bands.push_back(band);
-  }
-  if (!left.empty())
-    notes.push_back("layers or parts that are left as they are (--layer takes another): " + name_list(left));
-  if (bands.empty()) return notes;
-  const bool computed = light.front().channels.kind == Kind::computed;
-  notes.push_back(
-      computed ? "fluorescence is left out: " + name_list(bands)
-               : "R, G, B are taken for its light, though it has what looks like bands of a spectrum (" +
-                     name_list(bands) + "), whose names are not those of spectral OpenEXR (S0.500,0nm)");
-  return notes;
+                "has several parts that could be its light (" + name_list(names) +
+                    "); choose with --layer, or --layers A,B");
+  std::erase_if(light,
+                [&](const LightSubimage& p) { return !beauties.count(source.subimages()[p.index].part); });
 }
 
 bool is_data(const Subimage& subimage, const ImageRequest& request) {
@@ -160,10 +92,29 @@ bool is_data(const Subimage& subimage, const ImageRequest& request) {
          (is_data_name(subimage.name) && !is_beauty_name(subimage.name));
 }
 
-}  // namespace
+/// Of subimage `index` what a name stands for: the part or view itself ("" of its layers), or a layer.
+std::string layer_named(const Subimage& subimage, const std::string& name) {
+  const std::vector<std::string> layers = colour_layers(subimage);
+  if (std::find(layers.begin(), layers.end(), name) != layers.end()) return name;
+  const bool default_view = !subimage.views.empty() && subimage.views.front() == name;
+  return subimage.name == name || subimage.view == name || default_view ? "" : name;
+}
 
-FoundLight find_light(const PixelSource& source, const ColourConfig& config, const ImageRequest& request) {
-  FoundLight out;
+LightSubimage light_in(const PixelSource& source, std::size_t index, const ColourChannels& channels) {
+  const Subimage& subimage = source.subimages()[index];
+  LightSubimage light;
+  light.index = index;
+  light.channels = channels;
+  light.channels.straight = subimage.unassociated_alpha;
+  const bool viewed = channels.layer.empty() && !subimage.views.empty();
+  light.name = viewed ? subimage.views.front() : channels.layer;
+  if (light.name.empty()) light.name = subimage.name.empty() ? subimage.view : subimage.name;
+  return light;
+}
+
+/// The file's own beauty, or what --layer names.
+std::vector<LightSubimage> chosen_light(const PixelSource& source, const ImageRequest& request) {
+  std::vector<LightSubimage> out;
   std::optional<Error> ambiguous;
   std::vector<std::string> data;
   for (std::size_t i = 0; i < source.subimages().size(); ++i) {
@@ -174,17 +125,100 @@ FoundLight find_light(const PixelSource& source, const ColourConfig& config, con
                                                : subimage.name);
       continue;
     }
-    const bool part_chosen =
-        !request.layer.empty() && (subimage.name == request.layer || subimage.view == request.layer);
-    LightSubimage light;
-    light.index = i;
-    light.channels = colour_of(source, i, part_chosen ? "" : request.layer, ambiguous);
-    light.channels.straight = subimage.unassociated_alpha;
-    if (light.channels.kind != Kind::none) out.light.push_back(light);
+    const std::string layer = request.layer.empty() ? "" : layer_named(subimage, request.layer);
+    const ColourChannels channels = colour_of(source, i, layer, ambiguous);
+    if (channels.kind != Kind::none) out.push_back(light_in(source, i, channels));
   }
-  if (out.light.empty() && ambiguous) throw *ambiguous;
-  if (out.light.empty()) fail_without_light(source, request.layer, data);
-  if (request.layer.empty()) keep_subimages(source, out.light);
+  if (out.empty() && ambiguous) throw *ambiguous;
+  if (out.empty()) fail_without_light(source, request.layer, data);
+  if (request.layer.empty()) keep_subimages(source, out);
+  return out;
+}
+
+/// Both eyes see a night: other views of a layer in the same part, unless --layer names one.
+void add_views(const PixelSource& source, const ImageRequest& request, std::vector<LightSubimage>& light) {
+  std::vector<LightSubimage> all;
+  for (const LightSubimage& p : light) {
+    all.push_back(p);
+    const Subimage& subimage = source.subimages()[p.index];
+    if (p.channels.kind == Kind::computed || names_a_view(subimage, request.layer)) continue;
+    for (const std::string& layer : other_views(subimage, p.channels.layer))
+      all.push_back(light_in(source, p.index, source.colour(p.index, layer)));
+  }
+  light = std::move(all);
+}
+
+/// What a name of --layers stands for in one subimage; Kind::none: nothing.
+ColourChannels listed_colour(const PixelSource& source, std::size_t index, const std::string& name) {
+  const Subimage& subimage = source.subimages()[index];
+  const std::vector<std::string> layers = colour_layers(subimage);
+  const auto has = [&](const char* layer) {
+    return std::find(layers.begin(), layers.end(), layer) != layers.end();
+  };
+  if (name == "RGB" && !has("RGB")) return has("") ? source.colour(index, "") : ColourChannels{};
+  return source.colour(index, layer_named(subimage, name));
+}
+
+/// Several kinds of channels cannot become one file's R, G, B by one way.
+void require_one_kind(const PixelSource& source, const std::vector<LightSubimage>& light) {
+  const ColourChannels& first = light.front().channels;
+  for (const LightSubimage& p : light) {
+    if (p.channels.kind == Kind::computed)
+      throw Error(ExitCode::usage, source.file(), "--layers is not for spectra: --layer takes one");
+    if (has_receptors(p.channels) != has_receptors(first) || p.channels.xyz != first.xyz)
+      throw Error(
+          ExitCode::usage, source.file(),
+          "--layers: R, G, B and L, M, S, R or X, Y, Z are not treated alike; name those of one kind");
+  }
+}
+
+/// What --layers lists, in the file's order.
+std::vector<LightSubimage> listed_light(const PixelSource& source, const std::vector<std::string>& names) {
+  std::vector<LightSubimage> out;
+  const auto known = [&](std::size_t index, const std::string& layer) {
+    return std::any_of(out.begin(), out.end(),
+                       [&](const LightSubimage& p) { return p.index == index && p.channels.layer == layer; });
+  };
+  for (const std::string& name : names) {
+    bool found = false;
+    for (std::size_t i = 0; i < source.subimages().size(); ++i) {
+      if (!source.subimages()[i].readable) continue;
+      const ColourChannels channels = listed_colour(source, i, name);
+      if (channels.kind == Kind::none) continue;
+      found = true;
+      if (!known(i, channels.layer)) out.push_back(light_in(source, i, channels));
+    }
+    if (!found) fail_without_light(source, name, {});
+  }
+  std::sort(out.begin(), out.end(), [](const LightSubimage& a, const LightSubimage& b) {
+    return std::tie(a.index, a.channels.layer) < std::tie(b.index, b.channels.layer);
+  });
+  require_one_kind(source, out);
+  return out;
+}
+
+/// One eye adapts to one scene: where the beauty is among the layers, they are its shares, and it is metered
+/// alone.
+void choose_metered(const PixelSource& source, std::vector<LightSubimage>& light) {
+  const auto is_beauty = [&](const LightSubimage& p) {
+    const std::string& part = source.subimages()[p.index].name;
+    return is_beauty_name(p.name) || is_beauty_name(part) || (part.empty() && p.channels.layer.empty());
+  };
+  if (std::none_of(light.begin(), light.end(), is_beauty)) return;
+  for (LightSubimage& p : light) p.metered = is_beauty(p);
+}
+
+}  // namespace
+
+FoundLight find_light(const PixelSource& source, const ColourConfig& config, const ImageRequest& request) {
+  FoundLight out;
+  if (request.layers.empty()) {
+    out.light = chosen_light(source, request);
+    add_views(source, request, out.light);
+  } else {
+    out.light = listed_light(source, request.layers);
+    choose_metered(source, out.light);
+  }
   for (LightSubimage& light : out.light) choose_space(source, config, request, light);
   out.notes = notes_of(source, out.light);
   return out;

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "pipeline/layout/find_light.h"
 #include "pipeline/layout/layout.h"
+#include "pipeline/layout/light_notes.h"
 #include "pipeline/rows/row_codec.h"
 
 namespace scotopic {
@@ -114,18 +115,16 @@ ColourSpace choose_output_space(const PixelSource& source, const std::string& ou
   return is_integer(out) ? config.space_of_file(output, true) : config.space(config.working_space());
 }
 
-/// Channels of an output: R, G, B in place of what they are made of; the others as they are, or only alpha.
-std::vector<Channel> output_channels(const Subimage& subimage, const LightSubimage& light,
-                                     const std::string& format, const std::string& output,
-                                     const ImageRequest& request, bool keep_others) {
-  const ColourChannels& colour = light.channels;
+/// R, G, B that a layer becomes.
+void add_colour(const Subimage& subimage, const ColourChannels& colour, const std::string& format,
+                const std::string& output, const ImageRequest& request, bool keep_others,
+                std::vector<Channel>& out) {
   const std::string prefix = colour.layer.empty() ? "" : colour.layer + ".";
   const auto type_of = [&](std::size_t i) {
     const PixelType own =
         colour.kind == Kind::computed ? PixelType::float32 : subimage.channels[colour.index[i]].type;
     return output_type(format, output, own, request);
   };
-  std::vector<Channel> out;
   const char* const names[3] = {"R", "G", "B"};
   for (std::size_t i = 0; i < 3; ++i) {
     std::string name = keep_others ? prefix + names[i] : names[i];
@@ -134,9 +133,21 @@ std::vector<Channel> output_channels(const Subimage& subimage, const LightSubima
       name = subimage.channels[colour.index[i]].name;
     out.push_back({name, type_of(colour.kind == Kind::grey ? 0 : i)});
   }
+}
+
+/// Channels of an output: R, G, B of each layer in place of what they are made of; the others as they are, or
+/// only alpha.
+std::vector<Channel> output_channels(const Subimage& subimage, const std::vector<const LightSubimage*>& light,
+                                     const std::string& format, const std::string& output,
+                                     const ImageRequest& request, bool keep_others) {
+  std::vector<Channel> out;
+  for (const LightSubimage* layer : light)
+    add_colour(subimage, layer->channels, format, output, request, keep_others, out);
   for (std::size_t c = 0; c < subimage.channels.size(); ++c) {
-    if (colour.is_colour(c)) continue;
-    const bool alpha = colour.alpha == c && format != "jpeg";
+    if (std::any_of(light.begin(), light.end(),
+                    [&](const LightSubimage* layer) { return layer->channels.is_colour(c); }))
+      continue;
+    const bool alpha = light.front()->channels.alpha == c && format != "jpeg";
     if (keep_others || alpha)
       out.push_back({alpha && !keep_others ? "A" : subimage.channels[c].name,
                      format == "openexr" && !is_integer(subimage.channels[c].type) ? subimage.channels[c].type
@@ -147,16 +158,17 @@ std::vector<Channel> output_channels(const Subimage& subimage, const LightSubima
   return out;
 }
 
-OutputSubimage light_output(const PixelSource& source, const LightSubimage& light, const std::string& output,
+OutputSubimage light_output(const PixelSource& source, std::size_t index, const std::string& output,
                             const ColourConfig& config, const ImageRequest& request,
                             const ImageLayout& layout) {
+  const LightSubimage& light = *layout.light_of(index);
   const Subimage& subimage = source.subimages()[light.index];
   OutputSubimage out;
   out.source = light.index;
   out.subimage = subimage;
   const bool same_kind = source.format() == layout.format;
   out.subimage.channels = output_channels(
-      subimage, light, layout.format, output, request,
+      subimage, layout.lights_of(index), layout.format, output, request,
       same_kind ? layout.format == "openexr" || layout.format == "tiff" : layout.format == "openexr");
   if (layout.format == "openexr" || layout.format == "jpeg") out.subimage.unassociated_alpha = false;
   if (layout.format == "png") out.subimage.unassociated_alpha = true;
@@ -191,12 +203,19 @@ void note_losses(const PixelSource& source, ImageLayout& layout) {
     layout.notes.push_back(std::to_string(others - kept) + " other channels are not written");
 }
 
+void note_alike(ImageLayout& layout) {
+  if (std::string note = alike_note(layout.light); !note.empty()) layout.notes.push_back(std::move(note));
+}
+
 /// Of the first subimage with light: the others are read in the same way.
-void note_colours(const PixelSource& source, ImageLayout& layout) {
+void note_reading(const PixelSource& source, ImageLayout& layout) {
   const LightSubimage& light = layout.light.front();
   const std::vector<std::string>& read = source.subimages()[light.index].notes;
   layout.notes.insert(layout.notes.end(), read.begin(), read.end());
   layout.notes.insert(layout.notes.end(), light.conflicts.begin(), light.conflicts.end());
+}
+
+void note_colours(ImageLayout& layout) {
   const OutputSubimage& out = layout.outputs.front();
   const bool said = layout.format == "openexr" ? out.tags.linear : out.tags.srgb || out.tags.icc;
   if (out.new_tags && !said && !out.for_a_device)
@@ -212,6 +231,13 @@ const LightSubimage* ImageLayout::light_of(std::size_t source_index) const {
   return nullptr;
 }
 
+std::vector<const LightSubimage*> ImageLayout::lights_of(std::size_t source_index) const {
+  std::vector<const LightSubimage*> out;
+  for (const LightSubimage& subimage : light)
+    if (subimage.index == source_index) out.push_back(&subimage);
+  return out;
+}
+
 ImageLayout plan_layout(const PixelSource& source, const std::string& output, const ColourConfig& config,
                         const ImageRequest& request) {
   ImageLayout layout;
@@ -225,10 +251,13 @@ ImageLayout plan_layout(const PixelSource& source, const std::string& output, co
   layout.output_space = choose_output_space(source, output, config, request, layout);
   const bool whole = layout.format == "openexr" ? source.format() == "openexr" : false;
   const bool pages = layout.format == "tiff" && source.format() == "tiff";
+  if (!whole && request.layers.size() > 1)
+    throw Error(ExitCode::usage, output, "--layers: this format holds one layer; OpenEXR holds several");
   if (!whole && !pages) layout.light.resize(1);
+  note_alike(layout);
   for (std::size_t i = 0; i < source.subimages().size(); ++i) {
-    if (const LightSubimage* light = layout.light_of(i)) {
-      layout.outputs.push_back(light_output(source, *light, output, config, request, layout));
+    if (layout.light_of(i)) {
+      layout.outputs.push_back(light_output(source, i, output, config, request, layout));
     } else if (whole) {
       OutputSubimage copied;
       copied.source = i;
@@ -241,7 +270,8 @@ ImageLayout plan_layout(const PixelSource& source, const std::string& output, co
   // JPEG rounds in another domain, where steps of a code mean nothing.
   layout.dither = request.dither && (layout.night || request.view) && layout.format != "jpeg";
   note_losses(source, layout);
-  note_colours(source, layout);
+  note_reading(source, layout);
+  note_colours(layout);
   return layout;
 }
 
@@ -251,6 +281,8 @@ ImageLayout read_layout(const PixelSource& source, const ColourConfig& config, c
   layout.light = std::move(found.light);
   layout.notes = std::move(found.notes);
   if (source.format() != "openexr") layout.light.resize(1);
+  note_alike(layout);
+  note_reading(source, layout);
   layout.output_space = layout.light.front().space;
   return layout;
 }

@@ -32,7 +32,8 @@ enum class NightDisplayMode { where_looked_at, always, never };
 
 /// What the user says about a file's colour and its output; what is not said is found in the file.
 struct ImageRequest {
-  std::string layer;                       ///< --layer: a channel prefix or the name of a part
+  std::string layer;                       ///< --layer: a channel prefix, or the name of a part or view
+  std::vector<std::string> layers;         ///< --layers: several of them, treated alike; "RGB" is the topmost
   std::optional<std::string> colourspace;  ///< of the input
   std::optional<std::string> output_colourspace;
   std::optional<std::string> view;  ///< --display: [DISPLAY/]VIEW, in place of a colour space
@@ -47,8 +48,10 @@ struct ImageRequest {
 
 /// A subimage of the source that holds light, and the space its values are in.
 struct LightSubimage {
-  std::size_t index = 0;
+  std::size_t index = 0;  ///< the same for several layers of one subimage
   ColourChannels channels;
+  std::string name;     ///< of the layer, part or view: for messages
+  bool metered = true;  ///< one eye adapts to it: not to each layer of a beauty again
   ColourSpace space;
   std::string space_reason;            ///< how the space was found
   std::vector<std::string> conflicts;  ///< tags of the file that say something else
@@ -73,7 +76,9 @@ struct ImageLayout {
   bool wraps = false;                ///< a panorama: its last column lies beside its first
   std::vector<std::string> notes;
 
-  /// The light of that subimage of the source; nullptr: it holds none.
+  /// All light of that subimage of the source, layer by layer: an output has their R, G, B in this order.
+  std::vector<const LightSubimage*> lights_of(std::size_t source_index) const;
+  /// The first of it; nullptr: it holds none.
   const LightSubimage* light_of(std::size_t source_index) const;
 };
 

@@ -73,19 +73,20 @@ const LightPlanes* frame_of(const ImageStages& stages, const ImageLayout& layout
 }  // namespace
 
 SubimageRun::SubimageRun(const PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
-                         const ImageStages& stages, const OutputSubimage& out)
-    : light_(*layout.light_of(out.source)),
+                         const ImageStages& stages, const OutputSubimage& out, std::size_t layer)
+    : light_(*layout.lights_of(out.source).at(layer)),
       source_subimage_(source.subimages()[out.source]),
       out_(out),
       stages_(stages),
       wraps_(layout.wraps),
       frame_(frame_of(stages, layout, light_)),
       reader_(light_.channels, config, light_.space),
+      layer_(layer),
       tally_(source_subimage_) {
   writer_.from_working = config.from_working(layout.output_space);
   writer_.gain = static_cast<float>(std::exp2(layout.exposure));
   writer_.dither = layout.dither;
-  find_others();
+  find_others(layout.lights_of(out.source));
   set_alpha(config.linear_xyz(layout.output_space).has_value());
   const bool same_alpha =
       !light_.channels.alpha || source_subimage_.unassociated_alpha == out.subimage.unassociated_alpha;
@@ -98,8 +99,7 @@ SubimageRun::Room::Room(std::size_t width, const ImageStages& stages)
   for (const RowStage* stage : stages.after) memory.push_back(stage->memory());
 }
 
-void SubimageRun::run(const Band& in, Band& out, bool interleaved) const {
-  allocate(in, out, interleaved);
+void SubimageRun::run(const Band& in, const Band& out) const {
   // Receptors' signals have no columns of their own to take pieces of.
   if (reader_.receptors() || whole_rows_)
     return each_row(in, [&](int row, Room& room) { run_piece(in, 0, row, room, out); });
@@ -114,15 +114,14 @@ void SubimageRun::run(const Band& in, Band& out, bool interleaved) const {
   });
 }
 
-void SubimageRun::run(Band&& in, std::deque<AcuityRows>& filters, Band& out, bool interleaved,
-                      const std::function<void(const Band&)>& write) const {
+void SubimageRun::run(Band&& in, std::deque<AcuityRows>& filters,
+                      const std::function<const Band&(const Band& seen)>& place) const {
   see_band(std::move(in), filters, [&](const AcuityRows& rows) {
-    allocate(rows.band(), out, interleaved);
+    const Band& out = place(rows.band());
     each_row(rows.band(), [&](int row, Room& room) {
       rows.get_row(row, room.light);
       write_row(rows.band(), 0, row, room, out);
     });
-    write(out);
   });
 }
 
@@ -181,7 +180,7 @@ void SubimageRun::copy_row(const Band& in, int x, int row, LightRow& room, const
   bool finite = true;
   for (std::size_t c = 0; c < 3; ++c) {
     const NativeRow from = colour_row(in, row, c);
-    copy_other(from, out.channels[c].row(row), room.r);
+    copy_other(from, out.channels[3 * layer_ + c].row(row), room.r);
     finite = finite && !any_non_finite(from, room.r.size());
   }
   copy_others(in, row, room, out);
@@ -238,7 +237,8 @@ void SubimageRun::show_row(const Band& in, int x, int row, Room& room) const {
 void SubimageRun::write_row(const Band& in, int x, int row, Room& room, const Band& out) const {
   if (!stages_.after.empty()) show_row(in, x, row, room);
   LightRow& light = room.light;
-  const NativeRow targets[3] = {out.channels[0].row(row), out.channels[1].row(row), out.channels[2].row(row)};
+  const auto target = [&](std::size_t c) { return out.channels[3 * layer_ + c].row(row); };
+  const NativeRow targets[3] = {target(0), target(1), target(2)};
   bool changed = false;
   if (reader_.receptors()) {
     changed = writer_.write(light, targets, nullptr, x, in.y0 + row);
@@ -258,8 +258,9 @@ NativeRow SubimageRun::colour_row(const Band& in, int row, std::size_t c) const 
 }
 
 void SubimageRun::copy_others(const Band& in, int row, LightRow& room, const Band& out) const {
+  if (layer_ > 0) return;
   for (std::size_t i = 0; i < others_.size(); ++i)
-    copy_other(in.channels[others_[i]].row(row), out.channels[3 + i].row(row), room.r);
+    copy_other(in.channels[others_[i]].row(row), out.channels[first_other_ + i].row(row), room.r);
 }
 
 // Without alpha beside it colour is written as the light it is.
@@ -271,15 +272,18 @@ void SubimageRun::set_alpha(bool linear) {
   writer_.multiply_by_alpha = !straight && !linear;
 }
 
-// Channels that are not colour follow R, G, B, in the file's order.
-void SubimageRun::find_others() {
-  for (std::size_t o = 3; o < out_.subimage.channels.size(); ++o) {
+// Channels that are not colour follow R, G, B of all layers, in the file's order.
+void SubimageRun::find_others(const std::vector<const LightSubimage*>& layers) {
+  const auto is_light = [&](std::size_t c) {
+    return std::any_of(layers.begin(), layers.end(),
+                       [&](const LightSubimage* l) { return l->channels.is_colour(c); });
+  };
+  first_other_ = 3 * layers.size();
+  for (std::size_t o = first_other_; o < out_.subimage.channels.size(); ++o) {
     const std::string& name = out_.subimage.channels[o].name;
     for (std::size_t c = 0; c < source_subimage_.channels.size(); ++c) {
       const bool alpha = light_.channels.alpha == c;
-      if (light_.channels.is_colour(c) ||
-          (source_subimage_.channels[c].name != name && !(alpha && name == "A")))
-        continue;
+      if (is_light(c) || (source_subimage_.channels[c].name != name && !(alpha && name == "A"))) continue;
       others_.push_back(c);
       break;
     }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "stages/acuity/cutoff.h"
@@ -30,13 +31,17 @@ std::optional<double> camera_field_of_view(const PixelSource& source, const Imag
 /// What a subimage on a desk or a wall fills of its viewer's field (our choice: a lens of 50 mm).
 constexpr double assumed_degrees = 40;
 
+/// OpenEXR's envmap; the same as OpenImageIO writes it where it is told by its own name; and that of maketx
+/// --envlatl.
 bool is_lat_long(const PixelSource& source, const ImageLayout& layout) {
-  for (const Attribute& a : source.attributes(layout.light.front().index))
-    if (a.name == "envmap") {
-      const auto* text = std::get_if<std::string>(&a.value);
-      return text && *text == "latlong";
-    }
-  return false;
+  static const std::map<std::string, std::string> signs = {
+      {"envmap", "latlong"}, {"openexr:envmap", "latlong"}, {"textureformat", "LatLong Environment"}};
+  for (const Attribute& a : source.attributes(layout.light.front().index)) {
+    const auto sign = signs.find(a.name);
+    const auto* text = std::get_if<std::string>(&a.value);
+    if (sign != signs.end() && text && *text == sign->second) return true;
+  }
+  return source.subimages()[layout.light.front().index].panorama;
 }
 
 double pixels_per_degree_of_panorama(double width) { return width / 360; }

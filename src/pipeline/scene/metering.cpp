@@ -30,6 +30,7 @@ bool is_full_resolution(const Subimage& subimage) { return subimage.level_x == 0
 std::uint64_t pixels_of(const PixelSource& source, const ImageLayout& layout) {
   std::uint64_t pixels = 0;
   for (const LightSubimage& light : layout.light) {
+    if (!light.metered) continue;
     const Window& w = source.subimages()[light.index].data;
     pixels += static_cast<std::uint64_t>(w.width()) * static_cast<std::uint64_t>(w.height());
   }
@@ -117,7 +118,7 @@ MeasuredLight measure_light(PixelSource& source, const ImageLayout& layout, cons
   for (std::size_t i = 0; i < layout.light.size(); ++i) {
     const LightSubimage& light = layout.light[i];
     const Subimage& subimage = source.subimages()[light.index];
-    if (!is_full_resolution(subimage)) continue;
+    if (!light.metered || !is_full_resolution(subimage)) continue;
     const LightReader reader(light.channels, config, light.space);
     const LightPlanes* const frame = frames ? frames->of(i) : nullptr;
     SubimageMeter of_picture(subimage, reader, frame, meter, request, before);
@@ -162,13 +163,17 @@ LuminanceHistogram measure_base(PixelSource& source, const ImageLayout& layout, 
   for (const OutputSubimage& out : layout.outputs) {
     const Subimage& subimage = source.subimages()[out.source];
     if (out.copy || !is_full_resolution(subimage)) continue;
-    const SubimageRun run(source, layout, config, stages, out);
-    std::deque<AcuityRows> filters = run.filter_rows(false, false);
-    each_band(subimage, false, [&](int y0, int rows) {
-      source.read(out.source, y0, rows, in);
-      run.see_band(std::move(in), filters, add);
-      in = Band();
-    });
+    const std::vector<const LightSubimage*> layers = layout.lights_of(out.source);
+    for (std::size_t layer = 0; layer < layers.size(); ++layer) {
+      if (!layers[layer]->metered) continue;
+      const SubimageRun run(source, layout, config, stages, out, layer);
+      std::deque<AcuityRows> filters = run.filter_rows(false, false);
+      each_band(subimage, false, [&](int y0, int rows) {
+        source.read(out.source, y0, rows, in);
+        run.see_band(std::move(in), filters, add);
+        in = Band();
+      });
+    }
   }
   return all;
 }

@@ -98,10 +98,13 @@ OpenImage open_to_read(const ImageSettings& settings, const std::string& input, 
   return image;
 }
 
-std::string space_text(const ImageLayout& layout) {
+std::string input_space_text(const ImageLayout& layout) {
   const LightSubimage& light = layout.light.front();
-  return fmt::format("colour space {} ({}), written as {}", light.space.name, light.space_reason,
-                     layout.output_space.name);
+  return fmt::format("colour space {} ({})", light.space.name, light.space_reason);
+}
+
+std::string space_text(const ImageLayout& layout) {
+  return fmt::format("{}, written as {}", input_space_text(layout), layout.output_space.name);
 }
 
 void describe_layout(const PixelSource& source, const ColourConfig& config, const ImageLayout& layout,

@@ -41,6 +41,8 @@ OpenImage open_to_read(const ImageSettings& settings, const std::string& input, 
 
 /// Whose colours the input's are taken to be, and why; and the output's.
 std::string space_text(const ImageLayout& layout);
+/// The first half of it.
+std::string input_space_text(const ImageLayout& layout);
 /// Says what was found, and what the output cannot hold.
 void describe_layout(const PixelSource& source, const ColourConfig& config, const ImageLayout& layout,
                      const Notes& notes);

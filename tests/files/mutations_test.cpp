@@ -1,0 +1,172 @@
+// Profiles, LUTs, XMP and spectra with random faults: one line, never a crash or an endless wait.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "base/error.h"
+#include "cli/run_program.h"
+#include "color/icc/embedded_profile.h"
+#include "color/lut_trial.h"
+#include "files/made_files.h"
+
+namespace scotopic {
+namespace {
+
+/// Mutations of a kind: 3 000 in the long form (SCOTOPIC_LONG=1), few in the suite.
+int mutations(int usually) { return std::getenv("SCOTOPIC_LONG") ? 3000 : usually; }
+
+TEST(Mutations, mutated_profiles_never_crash) {
+  const std::string good = test::adobe_profile();
+  std::mt19937 random(7);
+  int refused = 0;
+  const int count = mutations(3000);
+  for (int i = 0; i < count; ++i) {
+    std::string bytes = good;
+    for (std::uint32_t n = random() % 4 + 1; n > 0; --n)
+      bytes[random() % bytes.size()] = static_cast<char>(random());
+    if (random() % 8 == 0) bytes.resize(random() % bytes.size());
+    const auto* const start = reinterpret_cast<const std::byte*>(bytes.data());
+    try {
+      const EmbeddedProfile profile({start, start + bytes.size()}, "file");
+      float r = 0.5f, g = 0.25f, b = 0.75f;
+      profile.to_xyz(&r, &g, &b, 1);
+    } catch (const Error&) {
+      ++refused;
+    }
+  }
+  std::printf("profiles: %d mutations, %d refused\n", count, refused);
+  EXPECT_GT(refused, count / 10);
+}
+
+/// A LUT of each kind that OpenColorIO reads as text.
+std::vector<std::pair<std::string, std::string>> luts() {
+  std::string cube = "LUT_3D_SIZE 2\n", nodes, spi = "SPILUT 1.0\n3 3\n2 2 2\n";
+  for (int b = 0; b < 2; ++b)
+    for (int g = 0; g < 2; ++g)
+      for (int r = 0; r < 2; ++r) {
+        const std::string values = std::to_string(r) + " " + std::to_string(g) + " " + std::to_string(b);
+        nodes += values + "\n";
+        spi += values + " " + values + "\n";
+      }
+  const std::string csp = "CSPLUTV100\n3D\n\n2\n0 1\n0 1\n2\n0 1\n0 1\n2\n0 1\n0 1\n\n2 2 2\n" + nodes;
+  const std::string spi1d = "Version 1\nFrom 0 1\nLength 2\nComponents 1\n{\n0\n1\n}\n";
+  const std::string clf =
+      "<?xml version=\"1.0\"?><ProcessList id=\"a\" compCLFversion=\"3\"><Matrix inBitDepth=\"32f\" "
+      "outBitDepth=\"32f\">"
+      "<Array dim=\"3 3\">1 0 0 0 1 0 0 0 1</Array></Matrix></ProcessList>";
+  return {{"m.cube", cube + nodes}, {"m.csp", csp}, {"m.spi3d", spi},
+          {"m.spi1d", spi1d},       {"m.clf", clf}, {"m.ctf", clf}};
+}
+
+TEST(Mutations, mutated_luts_neither_crash_nor_hang) {
+  std::mt19937 random(11);
+  for (const auto& [name, good] : luts()) {
+    EXPECT_NO_THROW(try_lut_file((test::write_bytes(test::place(name), good), test::place(name)))) << name;
+    int refused = 0;
+    const int count = mutations(40);
+    for (int i = 0; i < count; ++i) {
+      std::string bytes = good;
+      for (std::uint32_t n = random() % 4 + 1; n > 0; --n)
+        bytes[random() % bytes.size()] = static_cast<char>(random() % 96 + 32);
+      if (random() % 4 == 0) bytes.resize(random() % bytes.size());
+      std::filesystem::remove(test::place(name));
+      test::write_bytes(test::place(name), bytes);
+      try {
+        try_lut_file(test::place(name));
+      } catch (const Error& e) {
+        ++refused;
+        EXPECT_TRUE(e.code() == ExitCode::config || e.code() == ExitCode::limit) << e.what();
+      }
+    }
+    std::printf("%s: %d mutations, %d crashed or hung their reader and are refused\n", name.c_str(), count,
+                refused);
+  }
+}
+
+/// A text with some of its bytes changed, a piece doubled or left out, or cut.
+std::string mutated(const std::string& good, std::mt19937& random) {
+  std::string text = good;
+  for (std::uint32_t n = random() % 4 + 1; n > 0; --n) {
+    const std::size_t at = random() % text.size(), size = random() % 40;
+    switch (random() % 4) {
+      case 0:
+        text.insert(at, text.substr(random() % text.size(), size));
+        break;
+      case 1:
+        if (size < text.size() / 2) text.erase(at, size);
+        break;
+      default:
+        text[at] = static_cast<char>(random() % 2 ? random() : random() % 96 + 32);
+    }
+  }
+  if (random() % 8 == 0) text.resize(random() % text.size() + 1);
+  return text;
+}
+
+/// Ends with one of the program's own codes, in one line, within 5 s and 1 GiB.
+void expect_orderly(const std::vector<std::string>& arguments, const std::string& what, int& refused) {
+  const test::Outcome run = test::run_program(arguments, {5, 1ul << 30});
+  EXPECT_TRUE(run.exit_code == 0 || run.exit_code == 3 || run.exit_code == 4)
+      << what << ": exit " << run.exit_code << " " << run.err;
+  refused += run.exit_code != 0;
+}
+
+TEST(Mutations, mutated_xmp_neither_crashes_nor_hangs) {
+  const std::string good =
+      "<?xpacket begin='' id='W5M0MpCehiHzreSzNTczkc9d'?><x:xmpmeta xmlns:x='adobe:ns:meta/'><rdf:RDF "
+      "xmlns:rdf='http://www.w3.org/1999/02/22-rdf-syntax-ns#'><rdf:Description rdf:about='' "
+      "xmlns:dc='http://purl.org/dc/elements/1.1/' xmlns:tiff='http://ns.adobe.com/tiff/1.0/' "
+      "xmlns:GPano='http://ns.google.com/photos/1.0/panorama/' tiff:Orientation='6' xmp:Rating=\"3\" "
+      "GPano:ProjectionType='equirectangular'><!-- a > b --><dc:creator><rdf:Seq><rdf:li>A &amp; "
+      "B</rdf:li></rdf:Seq></dc:creator><dc:title><rdf:Alt><rdf:li "
+      "xml:lang='x-default'><![CDATA[<t>]]></rdf:li>"
+      "</rdf:Alt></dc:title><dc:subject><rdf:Bag><rdf:li>night</rdf:li></rdf:Bag></dc:subject>"
+      "</rdf:Description></rdf:RDF></x:xmpmeta><?xpacket end='w'?>";
+  test::write_flat_oiio(test::place("plain.jpg"), {0.5f, 0.25f, 0.75f}, false, "");
+  std::ostringstream plain;
+  plain << std::ifstream(test::place("plain.jpg"), std::ios::binary).rdbuf();
+  std::mt19937 random(5);
+  int refused = 0;
+  const int count = mutations(24);
+  for (int i = 0; i < count; ++i) {
+    const std::string xmp = mutated(good, random);
+    std::string file = test::place("in.png");
+    if (i % 2 == 0) {
+      test::write_bytes(
+          file, test::flat_png({1, 2, 3}, {{"iTXt", "XML:com.adobe.xmp" + std::string(5, '\0') + xmp}}));
+    } else {
+      const std::string body = std::string("http://ns.adobe.com/xap/1.0/\0", 29) + xmp;
+      test::write_bytes(
+          file = test::place("in.jpg"),
+          plain.str().insert(
+              2, "\xff\xe1" + test::big_endian(static_cast<std::uint32_t>(body.size() + 2), 2) + body));
+    }
+    expect_orderly({"explain", file, "--white-luminance", "1"}, xmp, refused);
+  }
+  std::printf("XMP: %d mutations, %d refused, the others read\n", count, refused);
+}
+
+TEST(Mutations, mutated_spectra_neither_crash_nor_hang) {
+  const std::string good =
+      "# a lamp\nnm,power\n380,0.5\n400.5;1e-3\n500 1.25\n555\t1.0\n600,2\n650,+1\n700,1e0\n780,0.0\n";
+  test::write_flat_exr(test::place("in.exr"), {1, 1, 1});
+  std::mt19937 random(3);
+  int refused = 0;
+  const int count = mutations(24);
+  for (int i = 0; i < count; ++i) {
+    const std::string text = mutated(good, random);
+    test::write_bytes(test::place("lamp.csv"), text);
+    expect_orderly(
+        {"explain", test::place("in.exr"), "--white-luminance", "1", "--illuminant", test::place("lamp.csv")},
+        text, refused);
+  }
+  std::printf("spectra: %d mutations, %d refused, the others read\n", count, refused);
+}
+
+}  // namespace
+}  // namespace scotopic
