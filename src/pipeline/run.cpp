@@ -312,9 +312,10 @@ ImageReport run_image(const ImageJob& job, ImageEnds& ends, const ImageSettings&
 SceneReport read_scene(const ImageJob& job, const ImageSettings& settings, Statistics wanted,
                        const Notes& notes) {
   OpenImage image = open_to_read(settings, job.input, notes);
+  SceneReport scene = read_scene(image, job, settings, wanted, notes);
   describe_layout(*image.source, settings.config, image.layout, notes);
   notes.note(image.source->file() + ": " + input_space_text(image.layout));
-  return read_scene(image, job, settings, wanted, notes);
+  return scene;
 }
 
 SceneReport read_scene(OpenImage& image, const ImageJob& asked, const ImageSettings& settings,
