@@ -1,6 +1,7 @@
 // The operator on images in memory: all stages of `scotopic apply`, with its parameters, and its bytes.
 //
-//   scotopic::Operator moon({{"adaptation", "moon"}, {"white_luminance", "5"}});
+//   const scotopic::Parameters parameters = {{"adaptation", "moon"}, {"white_luminance", "5"}};
+//   const scotopic::Operator moon(parameters);
 //   scotopic::Frame frame;
 //   frame.in = frame.out = pixels;          // linear light in the working space, or in parameter colorspace
 //   const scotopic::Plan plan = moon.apply(frame);

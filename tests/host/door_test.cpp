@@ -66,7 +66,7 @@ TEST(Door, daylight_calls_for_nothing_and_leaves_every_bit) {
   const std::vector<float> before = rgba;
   Frame frame;
   frame.in = frame.out = pixels(rgba, 4);
-  EXPECT_TRUE(Operator({{"adaptation", "100"}}).apply(frame).nothing());
+  EXPECT_TRUE(Operator(Parameters{{"adaptation", "100"}}).apply(frame).nothing());
   EXPECT_EQ(std::memcmp(rgba.data(), before.data(), rgba.size() * sizeof(float)), 0);
 }
 
@@ -74,7 +74,7 @@ TEST(Door, a_lut_and_a_shader_and_a_report_come_out_of_the_same_operator) {
   std::vector<float> in = night(3);
   Frame frame;
   frame.in = frame.out = pixels(in, 3);
-  const Operator moon({{"adaptation", "moon"}});
+  const Operator moon(Parameters{{"adaptation", "moon"}});
   const std::string file = testing::TempDir() + "/door_moon.clf";
   moon.bake(file, 17);
   EXPECT_GT(std::filesystem::file_size(file), 10000u);
@@ -100,7 +100,7 @@ TEST(Door, mistakes_are_errors_with_the_programs_words) {
   frame.in = frame.out = pixels(in, 3);
   frame.out.data += frame.out.row_stride;
   frame.in.height = frame.out.height = height - 1;
-  EXPECT_THROW(Operator({{"adaptation", "1"}}).apply(frame), Error);
+  EXPECT_THROW(Operator(Parameters{{"adaptation", "1"}}).apply(frame), Error);
 }
 
 }  // namespace
