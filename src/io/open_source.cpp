@@ -41,7 +41,7 @@ std::string format_of(const std::string& file) {
   const std::string_view head(start.data(), static_cast<std::size_t>(stream.gcount()));
   for (const Magic& magic : magics)
     if (head.substr(0, magic.bytes.size()) == magic.bytes) return magic.format;
-  if (head.substr(4, 4) == "ftyp")
+  if (head.size() >= 8 && head.substr(4, 4) == "ftyp")
     throw Error(
         ExitCode::input, file,
         "is HEIF, AVIF or a film, which is not read: convert it to PNG or TIFF first (of an HDR picture "
