@@ -320,11 +320,15 @@ std::vector<Row> strange_rows() {
                                                          "ELF"},
                                                         {"PDF", "%PDF-1.7"},
                                                         {"zip", "PK\x03\x04"},
-                                                        {"script", "#!/bin/sh\n"},
-                                                        {"HEIC", std::string("\0\0\0\x18"
-                                                                             "ftypheic",
-                                                                             12)}})
+                                                        {"script", "#!/bin/sh\n"}})
     rows.push_back({name, start + std::string(64, '\0'), 3, "is not an image"});
+  rows.push_back({"HEIC",
+                  std::string("\0\0\0\x18"
+                              "ftypheic",
+                              12) +
+                      std::string(64, '\0'),
+                  3, "is HEIF"});
+  rows.push_back({"three bytes", "abc", 3, "is not an image"});
   return rows;
 }
 
