@@ -1,6 +1,7 @@
 #include "color/colour_config.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -17,7 +18,7 @@ namespace {
 namespace OCIO = OCIO_NAMESPACE;
 
 std::string saved(const OCIO::ConstConfigRcPtr& config, const std::string& name) {
-  const std::string file = ::testing::TempDir() + "/" + name;
+  const std::string file = ::testing::TempDir() + "/" + std::to_string(getpid()) + name;
   std::ofstream stream(file);
   config->serialize(stream);
   return file;
@@ -78,7 +79,7 @@ TEST(ColourConfig, xyz_is_found_by_whichever_interchange_the_config_has) {
 // As Blender 5 has it: scene_linear is defined through the display-referred XYZ, and a tone map through
 // scene_linear. Only the default view transform lies between the two references.
 TEST(ColourConfig, a_view_transform_may_lead_through_the_space_that_is_defined_by_another_one) {
-  const std::string file = ::testing::TempDir() + "/views.ocio";
+  const std::string file = ::testing::TempDir() + "/views" + std::to_string(getpid()) + ".ocio";
   const auto write = [&](const std::string& plain) {
     std::ofstream(file) << R"(ocio_profile_version: 2
 roles: {scene_linear: Lin, default: Lin, aces_interchange: Ref, cie_xyz_d65_interchange: XYZ}

@@ -2,6 +2,7 @@
 #include "color/config/yaml_extent.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -120,7 +121,7 @@ TEST(YamlExtent, hostile_sizes_take_no_time) {
 class Config : public testing::Test {
  protected:
   std::string written(const std::string& text) const {
-    const std::string file = testing::TempDir() + "/scotopic_glance.ocio";
+    const std::string file = testing::TempDir() + "/scotopic_glance_" + std::to_string(getpid()) + ".ocio";
     std::ofstream(file, std::ios::binary) << text;
     return file;
   }

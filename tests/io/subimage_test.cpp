@@ -45,13 +45,13 @@ TEST(FindColour, light_is_found_where_files_keep_it) {
 }
 
 TEST(FindColour, several_layers_must_be_chosen_from) {
-  const Subimage two = picture_of({"left.B", "left.G", "left.R", "right.B", "right.G", "right.R"});
+  const Subimage two = picture_of({"key.B", "key.G", "key.R", "rim.B", "rim.G", "rim.R"});
   try {
     find_colour(two, "", "file.exr");
     FAIL() << "no error";
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ExitCode::usage);
-    EXPECT_NE(std::string(e.what()).find("left, right"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("key, rim"), std::string::npos) << e.what();
   }
 }
 
