@@ -59,12 +59,15 @@ const std::vector<Setting>& settings() {
        [](auto& e) { word(e, "scene", "street"), word(e, "model", "cao2008"); },
        {"--adaptation=street", "--model=cao2008"}},
       {"detail by contrast",
-       [](auto& e) { word(e, "scene", "moon"), number(e, "ppd", 20); },
-       {"--adaptation=moon", "--ppd=20"},
+       [](auto& e) { word(e, "scene", "moon"), number(e, "ppd", 20), word(e, "glare", "none"); },
+       {"--adaptation=moon", "--ppd=20", "--glare=none"},
        Setting::Needs::halo},
       {"acuity",
-       [](auto& e) { word(e, "scene", "moon"), number(e, "ppd", 20), word(e, "detail", "bilateral"); },
-       {"--adaptation=moon", "--ppd=20", "--detail=bilateral"},
+       [](auto& e) {
+         word(e, "scene", "moon"), number(e, "ppd", 20), word(e, "detail", "bilateral"),
+             word(e, "glare", "none");
+       },
+       {"--adaptation=moon", "--ppd=20", "--detail=bilateral", "--glare=none"},
        Setting::Needs::halo},
       {"glare",
        [](auto& e) {

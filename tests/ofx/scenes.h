@@ -14,7 +14,7 @@
 
 namespace scotopic::test {
 
-constexpr int width = 97, height = 61;
+constexpr int width = 389, height = 241;
 
 /// Values of the panel, and what they are as the program's options.
 struct Setting {
