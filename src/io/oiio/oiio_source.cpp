@@ -106,6 +106,11 @@ OiioSource::OiioSource(const std::string& file, const std::string& format, const
   const StderrHeld held;
   watch(file);
   scans_ = scan_image(file, format);
+  // Before the library, whose own limits differ from release to release.
+  for (const ImageScan& scan : scans_) {
+    check_limit(file, "side", std::max(scan.width, scan.height), limits.side, "--max-side");
+    check_limit_product(file, "pixels", scan.width, scan.height, limits.pixels, "--max-pixels");
+  }
   if (!scans_.empty() && scans_.front().xyze_at > 0) read_xyze_as_rgbe(scans_.front().xyze_at);
   if (!input_->open(file, spec, hints)) fail("is not a valid " + format + " file: " + input_->geterror());
   for (int page = 0; input_->seek_subimage(page, 0); ++page) {

@@ -36,6 +36,16 @@ void encode_exposure(ImageScan& scan) {
   for (double& factor : scan.correction) factor = std::pow(factor, 1 / *scan.colour.gamma);
 }
 
+/// "-Y 480 +X 640", or the columns first.
+void read_resolution(const std::string& line, ImageScan& scan) {
+  std::istringstream stream(line);
+  std::string first, second;
+  std::int64_t a = 0, b = 0;
+  if (!(stream >> first >> a >> second >> b) || first.size() != 2 || second.size() != 2) return;
+  scan.width = first[1] == 'X' ? a : b;
+  scan.height = first[1] == 'X' ? b : a;
+}
+
 }  // namespace
 
 ImageScan scan_hdr(const std::string& file) {
@@ -56,6 +66,7 @@ ImageScan scan_hdr(const std::string& file) {
     if (line.rfind(xyz_format, 0) == 0) scan.xyze_at = at + xyz_format.size() - 4;
     at += line.size() + 1;
   }
+  if (std::getline(in, line)) read_resolution(line, scan);
   for (const double factor : {scan.exposure, scan.correction[0], scan.correction[1], scan.correction[2]})
     if (!(std::isfinite(factor) && factor >= 1e-30 && factor <= 1e30))
       throw Error(ExitCode::input, file, "is damaged: its EXPOSURE or COLORCORR is no factor");

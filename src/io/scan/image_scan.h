@@ -16,6 +16,7 @@ namespace scotopic {
 /// Of one picture (a page of a TIFF, else the file).
 struct ImageScan {
   ColourTags colour;
+  std::int64_t width = 0, height = 0;         ///< as PNG and HDR say them; 0: not looked for
   int orientation = 1;                        ///< Exif's 1 to 8
   double exposure = 1;                        ///< pixels are this times the light (Radiance HDR), and
   std::array<double, 3> correction{1, 1, 1};  ///< these, of each channel

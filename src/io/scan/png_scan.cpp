@@ -76,7 +76,10 @@ void read_text(const std::string& type, const Bytes& chunk, const std::string& f
 
 void read_chunk(const std::string& type, const Bytes& chunk, const std::string& file, ImageScan& scan) {
   ColourTags& tags = scan.colour;
-  if (type == "iCCP") {
+  if (type == "IHDR" && chunk.size() == 13) {
+    scan.width = static_cast<std::int64_t>(number_at(chunk, 0, 4, true));
+    scan.height = static_cast<std::int64_t>(number_at(chunk, 4, 4, true));
+  } else if (type == "iCCP") {
     std::size_t at = 0;
     text_at(chunk, at);
     keep_profile(inflated(std::span(chunk).subspan(std::min(at + 1, chunk.size()))), file, scan);
@@ -101,7 +104,7 @@ void read_chunk(const std::string& type, const Bytes& chunk, const std::string& 
 }  // namespace
 
 ImageScan scan_png(const std::string& file) {
-  static constexpr std::string_view wanted[] = {"iCCP", "cICP", "gAMA", "cHRM", "sRGB",
+  static constexpr std::string_view wanted[] = {"IHDR", "iCCP", "cICP", "gAMA", "cHRM", "sRGB",
                                                 "eXIf", "gmAP", "tEXt", "zTXt", "iTXt"};
   ImageScan scan;
   FileBytes bytes(file);
