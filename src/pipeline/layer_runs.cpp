@@ -3,13 +3,17 @@
 #include <utility>
 
 namespace scotopic {
+namespace {
 
+/// A copy with a place of its own.
 Band copy_of(const Band& band) {
   Band out = band;
   for (std::size_t c = 0; c < out.channels.size(); ++c)
     out.channels[c].data = out.storage.data() + (band.channels[c].data - band.storage.data());
   return out;
 }
+
+}  // namespace
 
 LayerRuns::LayerRuns(const PixelSource& source, const ImageLayout& layout, const ColourConfig& config,
                      const ImageStages& stages, const OutputSubimage& out, bool descending, bool interleaved)

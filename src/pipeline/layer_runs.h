@@ -34,7 +34,4 @@ class LayerRuns {
   std::size_t done_count_ = 0;
 };
 
-/// A copy with a place of its own.
-Band copy_of(const Band& band);
-
 }  // namespace scotopic

@@ -11,7 +11,6 @@
 #include <thread>
 
 #include "batch/batch.h"
-#include "looks/lut/axes.h"
 #include "looks/verify/contenders.h"
 #include "cli/options/image_options.h"
 #include "cli/options/operator_options.h"
@@ -71,18 +70,6 @@ Colours colours_of(const Colours& pixels) {
   return out;
 }
 
-std::size_t outside_ap1(const Colours& colours, const AppearanceParameters& p) {
-  const Matrix3<double> ap1 = LookCoordinates::from_xyz() * p.xyz_from_rgb;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < colours.size(); ++i) {
-    const Vec3<double> v = ap1 * Vec3<double>{colours.r[i], colours.g[i], colours.b[i]};
-    // Not what rounding alone puts there.
-    const double rounding = 1e-6 * std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
-    count += std::min({v[0], v[1], v[2]}) < -rounding;
-  }
-  return count;
-}
-
 Subject subject_by_formula(const OperatorChoice& choice) {
   Subject out;
   const AppearanceParameters p = parameters_of(choice, choice.adaptation.value_or(0.1));
@@ -114,7 +101,7 @@ Subject subject_of_image(const TimeOptions& options, const OperatorChoice& choic
   out.colours = colours_of(out.picture.pixels);
   out.conditions.picture = fmt::format("{}, adaptation {:.3g} cd/m2", options.input, numbers.adaptation);
   out.conditions.colours = fmt::format("{} of its pixels", out.colours.size());
-  out.conditions.outside_ap1 = outside_ap1(out.colours, out.parameters);
+  out.conditions.outside_ap1 = outside_ap1(out.colours, out.parameters.xyz_from_rgb);
   return out;
 }
 

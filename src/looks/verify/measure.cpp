@@ -44,7 +44,20 @@ bool outside(const Vec3<double>& rgb) {
   return low < -rounding * std::abs(high);
 }
 
+Vec3<double> at(const Colours& c, std::size_t i) { return {c.r[i], c.g[i], c.b[i]}; }
+
+Matrix3<double> ap1_from(const Matrix3<double>& xyz_from_rgb) {
+  return inverse(gamut_xyz_matrix("ap1").value()) * xyz_from_rgb;
+}
+
 }  // namespace
+
+std::size_t outside_ap1(const Colours& colours, const Matrix3<double>& xyz_from_rgb) {
+  const Matrix3<double> ap1_from_rgb = ap1_from(xyz_from_rgb);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < colours.size(); ++i) count += outside(ap1_from_rgb * at(colours, i));
+  return count;
+}
 
 Colours stop_colours(std::size_t count, const Matrix3<double>& xyz_from_gamut,
                      const Matrix3<double>& xyz_from_rgb, const StopRange& range) {
@@ -72,12 +85,9 @@ Colours stop_colours(std::size_t count, const Matrix3<double>& xyz_from_gamut,
 Comparison::Comparison(const Matrix3<double>& xyz_from_rgb) : Comparison(xyz_from_rgb, exposed_difference) {}
 
 Comparison::Comparison(const Matrix3<double>& xyz_from_rgb, Difference difference)
-    : xyz_from_rgb_(xyz_from_rgb),
-      difference_(difference),
-      ap1_from_rgb_(inverse(gamut_xyz_matrix("ap1").value()) * xyz_from_rgb) {}
+    : xyz_from_rgb_(xyz_from_rgb), difference_(difference), ap1_from_rgb_(ap1_from(xyz_from_rgb)) {}
 
 void Comparison::add(const Colours& in, const Colours& expected, const Colours& got) {
-  const auto at = [](const Colours& c, std::size_t i) { return Vec3<double>{c.r[i], c.g[i], c.b[i]}; };
   for (std::size_t i = 0; i < expected.size(); ++i, ++seen_) {
     const double d = difference_(xyz_from_rgb_ * at(expected, i), xyz_from_rgb_ * at(got, i));
     if (outside(ap1_from_rgb_ * at(in, i))) {

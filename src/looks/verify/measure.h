@@ -36,6 +36,9 @@ struct StopRange {
 Colours stop_colours(std::size_t count, const Matrix3<double>& xyz_from_gamut,
                      const Matrix3<double>& xyz_from_rgb, const StopRange& range = {});
 
+/// How many of linear RGB colours lie outside AP1, beyond what rounding to float puts there.
+std::size_t outside_ap1(const Colours& colours, const Matrix3<double>& xyz_from_rgb);
+
 /// CIEDE2000 at equal exposure (appearance/colour_difference.h) between what should be and what is.
 struct BakeError {
   double mean = 0, p99 = 0, max = 0;

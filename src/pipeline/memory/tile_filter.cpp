@@ -16,15 +16,6 @@ Window within(const Window& data, const Window& whole, int halo) {
           data.height() - inset(data.y1 >= whole.y1)};
 }
 
-void copy(const AcuityWindow& window, const AcuityTile& tile) {
-  const std::ptrdiff_t from = (tile.y - window.y) * window.stride + tile.x - window.x;
-  for (int y = 0; y < tile.height; ++y) {
-    std::copy_n(window.r + from + y * window.stride, tile.width, tile.r + y * tile.stride);
-    std::copy_n(window.g + from + y * window.stride, tile.width, tile.g + y * tile.stride);
-    std::copy_n(window.b + from + y * window.stride, tile.width, tile.b + y * tile.stride);
-  }
-}
-
 /// What of it lies in a window.
 AcuityTile clipped(const AcuityTile& tile, const Window& to) {
   AcuityTile out = tile;
@@ -56,7 +47,7 @@ class TileFilter : public SpatialFilter {
   void filter(const AcuityWindow& window, const AcuityTile& tile,
               const ParallelFor& parallel_for) const override {
     AcuityTile part = clipped(tile, within_);
-    if (part.width < tile.width || part.height < tile.height) copy(window, tile);
+    if (part.width < tile.width || part.height < tile.height) copy_tile(window, tile);
     if (part.width == 0) return;
     AcuityWindow seen = window;
     seen.x += x_;

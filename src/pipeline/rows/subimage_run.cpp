@@ -148,7 +148,7 @@ std::deque<AcuityRows> SubimageRun::filter_rows(bool descending, bool keep_alpha
 
 void SubimageRun::each_row(const Band& band, const std::function<void(int row, Room& room)>& work) const {
   parallel_rows(band.rows, 8, [&](int first, int last) {
-    rooms_.with([&] { return Room(static_cast<std::size_t>(band.width), stages_); },
+    rooms_.with([&] { return std::make_unique<Room>(static_cast<std::size_t>(band.width), stages_); },
                 [&](Room& room) {
                   for (int row = first; row < last; ++row) work(row, room);
                 });

@@ -8,10 +8,10 @@
 #include <optional>
 #include <vector>
 
-#include "base/spares.h"
 #include "pipeline/apply_image.h"
 #include "pipeline/rows/acuity_rows.h"
 #include "pipeline/rows/row_codec.h"
+#include "stages/spares.h"
 
 namespace scotopic {
 

@@ -74,7 +74,6 @@ struct AcuityFilter::Plan {
   int halo = 0;
   int reach = 0;
 
-  void copy(const AcuityWindow& window, const AcuityTile& tile) const;
   void filter_window(const AcuityWindow&, const AcuityTile&, const ParallelFor&) const;
   void filter_cells(const AcuityWindow&, const AcuityTile&, const ParallelFor&) const;
 };
@@ -179,13 +178,13 @@ void AcuityFilter::filter(const AcuityWindow& window, const AcuityTile& tile,
                           const ParallelFor& parallel_for) const {
   if (tile.width <= 0 || tile.height <= 0) return;
   acuity::require_window(window, tile, plan_->halo);
-  if (plan_->identity) return plan_->copy(window, tile);
+  if (plan_->identity) return copy_tile(window, tile);
   const AcuityWindow needed = cropped(window, tile, plan_->halo);
   if (plan_->engine == AcuityEngine::window) return plan_->filter_window(needed, tile, parallel_for);
   plan_->filter_cells(needed, tile, parallel_for);
 }
 
-void AcuityFilter::Plan::copy(const AcuityWindow& window, const AcuityTile& tile) const {
+void copy_tile(const AcuityWindow& window, const AcuityTile& tile) noexcept {
   const std::ptrdiff_t from = (tile.y - window.y) * window.stride + tile.x - window.x;
   for (int y = 0; y < tile.height; ++y) {
     std::copy_n(window.r + from + y * window.stride, tile.width, tile.r + y * tile.stride);

@@ -62,6 +62,9 @@ struct AcuityTile {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
+/// The identity: the tile's pixels of the window, which must hold it.
+void copy_tile(const AcuityWindow& window, const AcuityTile& tile) noexcept;
+
 /// A filter of an image's light that looks at the pixels around each. Immutable: share it between threads.
 class SpatialFilter {
  public:

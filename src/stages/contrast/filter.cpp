@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -10,6 +10,7 @@
 
 #include "stages/acuity/engines.h"
 #include "stages/contrast/block.h"
+#include "stages/spares.h"
 
 namespace scotopic {
 namespace {
@@ -70,15 +71,6 @@ Constants constants_of(const ContrastParameters& p) {
   return c;
 }
 
-void copy(const AcuityWindow& window, const AcuityTile& tile) {
-  const std::ptrdiff_t from = (tile.y - window.y) * window.stride + tile.x - window.x;
-  for (int y = 0; y < tile.height; ++y) {
-    std::copy_n(window.r + from + y * window.stride, tile.width, tile.r + y * tile.stride);
-    std::copy_n(window.g + from + y * window.stride, tile.width, tile.g + y * tile.stride);
-    std::copy_n(window.b + from + y * window.stride, tile.width, tile.b + y * tile.stride);
-  }
-}
-
 /// Rows begin ... of a tile.
 AcuityTile rows_of(const AcuityTile& tile, int begin, int height) {
   AcuityTile rows = tile;
@@ -87,28 +79,6 @@ AcuityTile rows_of(const AcuityTile& tile, int begin, int height) {
   rows.height = height;
   return rows;
 }
-
-/// Blocks that wait for the next rows: memory fresh from the system costs more than the work in it.
-class Blocks {
- public:
-  explicit Blocks(const Constants& constants) : constants_(constants) {}
-  std::unique_ptr<Block> take() {
-    const std::lock_guard lock(mutex_);
-    if (idle_.empty()) return std::make_unique<Block>(constants_);
-    std::unique_ptr<Block> block = std::move(idle_.back());
-    idle_.pop_back();
-    return block;
-  }
-  void give(std::unique_ptr<Block> block) {
-    const std::lock_guard lock(mutex_);
-    idle_.push_back(std::move(block));
-  }
-
- private:
-  const Constants& constants_;
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<Block>> idle_;
-};
 
 }  // namespace
 
@@ -137,14 +107,15 @@ void ContrastFilter::filter(const AcuityWindow& window, const AcuityTile& tile,
                             const ParallelFor& parallel_for) const {
   acuity::require_window(window, tile, plan_->halo);
   if (tile.width <= 0 || tile.height <= 0) return;
-  if (bands() == 0) return copy(window, tile);
+  if (bands() == 0) return copy_tile(window, tile);
   const int blocks = (tile.height + block_rows - 1) / block_rows;
-  Blocks idle(plan_->constants);
+  Spares<Block> idle;
   parallel_for(blocks, [&](int i) {
     const int begin = i * block_rows;
-    std::unique_ptr<Block> block = idle.take();
-    block->filter(window, rows_of(tile, begin, std::min(block_rows, tile.height - begin)));
-    idle.give(std::move(block));
+    idle.with([&] { return std::make_unique<Block>(plan_->constants); },
+              [&](Block& block) {
+                block.filter(window, rows_of(tile, begin, std::min(block_rows, tile.height - begin)));
+              });
   });
 }
 

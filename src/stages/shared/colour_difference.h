@@ -26,8 +26,8 @@ double ciede2000(const Lab& a, const Lab& b) noexcept;
 /// CIEDE2000 of two lights of a display whose white is Y = 1, as they are shown.
 double shown_difference(const Vec3<double>& reference, const Vec3<double>& other) noexcept;
 
-/// ΔE-ITP (ITU-R BT.2124-0) of two lights, XYZ (D65) in units of 100 cd/m2: 720 times the distance in I, T/2,
-/// P of ICtCp (BT.2100, PQ).
+/// Delta E ITP (ITU-R BT.2124-0) of two lights, XYZ (D65) in units of 100 cd/m2: 720 times the distance in I,
+/// T/2, P of ICtCp (BT.2100, PQ).
 double itp_difference(const Vec3<double>& reference, const Vec3<double>& other) noexcept;
 
 /// Luminance of a photographer's mid-grey, to which pixels are exposed before they are compared.

@@ -1,4 +1,5 @@
-// Working space that is kept from one chunk of rows to the next: made once for each thread at work.
+// Working space that is kept from one chunk of rows to the next: made once for each thread at work, as memory
+// fresh from the system costs more than the work in it.
 #pragma once
 
 #include <memory>
@@ -12,11 +13,12 @@ namespace scotopic {
 template <typename T>
 class Spares {
  public:
-  /// use(T&) with the one that was used last, or a new make() where all are at work.
+  /// use(T&) with the one that was used last, or a new one, make() -> std::unique_ptr<T>, where all are at
+  /// work.
   template <typename Make, typename Use>
   void with(Make make, Use use) {
     std::unique_ptr<T> one = take();
-    if (!one) one = std::make_unique<T>(make());
+    if (!one) one = make();
     use(*one);
     const std::lock_guard lock(lock_);
     spares_.push_back(std::move(one));
