@@ -6,18 +6,14 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "cli/run_program.h"
+#include "support/file_bytes.h"
 
 namespace scotopic {
 namespace {
 
-std::string bytes_of(const std::string& file) {
-  std::ostringstream out;
-  out << std::ifstream(file, std::ios::binary).rdbuf();
-  return out.str();
-}
+using test::bytes_of;
 
 class Apply : public ::testing::Test {
  protected:

@@ -12,15 +12,12 @@
 #include <vector>
 
 #include "cli/run_program.h"
+#include "support/file_bytes.h"
 
 namespace scotopic {
 namespace {
 
-std::string bytes_of(const std::string& file) {
-  std::ostringstream out;
-  out << std::ifstream(file, std::ios::binary).rdbuf();
-  return out.str();
-}
+using test::bytes_of;
 
 std::vector<std::uint8_t> pixels_of(const std::string& file) {
   const auto in = OIIO::ImageInput::open(file);

@@ -4,18 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <sstream>
 
 #include "files/made_files.h"
+#include "support/file_bytes.h"
 
 namespace scotopic {
 namespace {
 
-std::string bytes_of(const std::string& file) {
-  std::ostringstream out;
-  out << std::ifstream(file, std::ios::binary).rdbuf();
-  return out.str();
-}
+using test::bytes_of;
 
 std::string jpeg() {
   test::write_flat_oiio(test::place("plain.jpg"), {0.5f, 0.25f, 0.75f}, false, "");

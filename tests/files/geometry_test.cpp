@@ -13,18 +13,14 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <sstream>
 
 #include "files/made_files.h"
+#include "support/file_bytes.h"
 
 namespace scotopic {
 namespace {
 
-std::string bytes_of(const std::string& file) {
-  std::ostringstream out;
-  out << std::ifstream(file, std::ios::binary).rdbuf();
-  return out.str();
-}
+using test::bytes_of;
 
 /// 3 x 2 pixels of red 0.1 to 0.6, row by row; with an orientation.
 void write_six(const std::string& file, int orientation) {

@@ -14,19 +14,15 @@
 #include <cstdio>
 #include <fstream>
 #include <memory>
-#include <sstream>
 
 #include "files/made_files.h"
 #include "pipeline/apply_image.h"
+#include "support/file_bytes.h"
 
 namespace scotopic {
 namespace {
 
-std::string bytes_of(const std::string& file) {
-  std::ostringstream out;
-  out << std::ifstream(file, std::ios::binary).rdbuf();
-  return out.str();
-}
+using test::bytes_of;
 
 /// A texture as maketx makes it: tiles, levels, and hashes and averages of its pixels.
 void write_texture(const std::string& file, float value) {

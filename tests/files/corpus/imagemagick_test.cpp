@@ -18,9 +18,12 @@
 #include <vector>
 
 #include "files/corpus/corpus.h"
+#include "support/file_bytes.h"
 
 namespace scotopic {
 namespace {
+
+using test::bytes_of;
 
 using test::Meaning;
 using test::Sample;
@@ -28,12 +31,6 @@ using test::Tally;
 using Words = std::vector<std::string>;
 
 constexpr int width = 19, height = 11;
-
-std::string bytes_of(const std::string& file) {
-  std::ostringstream out;
-  out << std::ifstream(file, std::ios::binary).rdbuf();
-  return out.str();
-}
 
 std::uint32_t number(const std::string& bytes, std::size_t at) {
   std::uint32_t out = 0;

@@ -18,28 +18,16 @@
 namespace scotopic {
 namespace {
 
+using test::filtered;
 using test::Picture;
 using test::Plane;
+using test::same_bits;
 using test::square_grid;
+using test::sum;
 
 GlareParameters parameters(int width, int height, double ppd = 20, GlareRule rule = GlareRule::above) {
   return {{}, square_grid(width, height, ppd), rule, 1};
 }
-
-Picture filtered(const GlareParameters& p, Picture picture, const ParallelFor& parallel_for = serial_for) {
-  GlareFilter(p).apply(picture.view(), parallel_for);
-  return picture;
-}
-
-bool same_bits(const Picture& a, const Picture& b) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (std::memcmp(a.planes[k].values.data(), b.planes[k].values.data(),
-                    a.planes[k].values.size() * sizeof(float)) != 0)
-      return false;
-  return true;
-}
-
-double sum(const Plane& plane) { return std::accumulate(plane.values.begin(), plane.values.end(), 0.0); }
 
 /// Dark ground with noise, `lamps` coloured lamps of up to 10^decades.
 Picture night(int width, int height, int lamps, double decades = 4, unsigned seed = 1) {

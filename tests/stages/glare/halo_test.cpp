@@ -19,19 +19,17 @@
 namespace scotopic {
 namespace {
 
+using test::filtered;
 using test::Picture;
 using test::Plane;
+using test::same_bits;
+using test::sum;
 
 constexpr double share = 0.033;
 constexpr double radians = std::numbers::pi / 180;
 
 GlareParameters parameters(int width, int height, double ppd, GlareRule rule = GlareRule::all) {
   return {{28.58, 0.5, share}, test::square_grid(width, height, ppd), rule, 1};
-}
-
-Picture filtered(const GlareParameters& p, Picture picture, const ParallelFor& parallel_for = serial_for) {
-  GlareFilter(p).apply(picture.view(), parallel_for);
-  return picture;
 }
 
 Picture lamp(int width, int height, int x, int y, float light = 1) {
@@ -47,16 +45,6 @@ Picture lamps(int width, int height) {
       out.planes[k](i * 37 % width, i * 53 % height) = static_cast<float>(1 + i * i * (k + 1));
   return out;
 }
-
-bool same_bits(const Picture& a, const Picture& b) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (std::memcmp(a.planes[k].values.data(), b.planes[k].values.data(),
-                    a.planes[k].values.size() * sizeof(float)) != 0)
-      return false;
-  return true;
-}
-
-double sum(const Plane& plane) { return std::accumulate(plane.values.begin(), plane.values.end(), 0.0); }
 
 TEST(GlareHalo, is_a_ring_of_3_degrees_that_holds_all_its_light) {
   for (const double wavelength : {442.0, 465.0, 550.0, 568.0, 610.0}) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numeric>
+#include <cstring>
 #include <numbers>
 #include <string>
 #include <thread>
@@ -111,5 +113,23 @@ struct Picture {
   }
   std::vector<Plane> planes;
 };
+
+inline Picture filtered(const GlareParameters& p, Picture picture,
+                        const ParallelFor& parallel_for = serial_for) {
+  GlareFilter(p).apply(picture.view(), parallel_for);
+  return picture;
+}
+
+inline bool same_bits(const Picture& a, const Picture& b) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (std::memcmp(a.planes[k].values.data(), b.planes[k].values.data(),
+                    a.planes[k].values.size() * sizeof(float)) != 0)
+      return false;
+  return true;
+}
+
+inline double sum(const Plane& plane) {
+  return std::accumulate(plane.values.begin(), plane.values.end(), 0.0);
+}
 
 }  // namespace scotopic::test
