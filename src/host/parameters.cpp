@@ -13,9 +13,9 @@ namespace {
 
 /// About files, which a host that holds pixels has not.
 const std::set<std::string>& of_files() {
-  static const std::set<std::string> names = {"--bands",      "--band-radiance", "--receptor-channels",
-                                              "--layer",      "--layers",        "--max-side",
-                                              "--max-pixels", "--max-channels",  "--max-bands"};
+  static const std::set<std::string> names = {"--bands",        "--band-radiance", "--receptor-channels",
+                                              "--layer",        "--max-side",      "--max-pixels",
+                                              "--max-channels", "--max-bands"};
   return names;
 }
 

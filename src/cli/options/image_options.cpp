@@ -40,9 +40,6 @@ void add_input_options(CLI::App& verb, ImageOptions& o) {
       "rules",
       "NAME");
   add("--layer", o.layer, "Which layer, part or view holds the colour", "NAME");
-  add("--layers", o.layers, "Several of them, treated alike; RGB: the topmost. Adaptation is the beauty's",
-      "A,B,...");
-  verb.get_option("--layers")->excludes("--layer");
   const auto limit = [&](const char* name, std::int64_t& value, const char* text) {
     add_limit(verb, name, value, text);
   };
@@ -52,6 +49,10 @@ void add_input_options(CLI::App& verb, ImageOptions& o) {
   limit("--max-bands", o.limits.bands, "Bands of a spectrum");
   limit("--max-memory", o.limits.memory, "Bytes planned for pixels on their way");
   add_config_limits(verb, o.limits);
+}
+
+void add_layers_option(CLI::App& verb, ImageOptions& o, const char* text) {
+  verb.add_option("--layers", o.layers, text)->type_name("A,B,...")->group("Input")->excludes("--layer");
 }
 
 void add_output_options(CLI::App& verb, ImageOptions& o) {

@@ -21,8 +21,10 @@ struct ImageOptions {
   Limits limits;
 };
 
-/// Of the input: --config, --working-primaries, --colorspace, --layer, --layers, --max-...
+/// Of the input: --config, --working-primaries, --colorspace, --layer, --max-...
 void add_input_options(CLI::App& verb, ImageOptions& options);
+/// Behind those, of verbs that make something of several layers.
+void add_layers_option(CLI::App& verb, ImageOptions& options, const char* text);
 /// Of configs and LUTs alone: --max-config-size, --max-lut-size. Part of add_input_options().
 void add_config_limits(CLI::App& verb, Limits& limits);
 /// Of the output: --output-colorspace, -d, --exposure.

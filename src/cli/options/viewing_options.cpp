@@ -11,7 +11,7 @@ void add_viewing_options(CLI::App& verb, ViewingOptions& o) {
   add("--ppd", o.pixels_per_degree, "Pixels per degree of the viewer's field", "X");
   add("--fov", o.field_of_view, "Degrees that the picture's width fills of it, instead of --ppd", "DEG");
   add("--projection", o.projection,
-      "flat or latlong (360 degrees wide); default: what an EXR's envmap says, else flat", "NAME");
+      "flat or latlong (360 degrees wide); default: what the file says (envmap, GPano), else flat", "NAME");
 }
 
 ViewingChoice parse(const ViewingOptions& o) {

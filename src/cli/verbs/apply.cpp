@@ -104,6 +104,8 @@ void add_apply(CLI::App& program, Invocation& invocation) {
   add_frame_options(verb, options->frames);
   add_apply_options(verb, options->stages);
   add_input_options(verb, scene.image);
+  add_layers_option(verb, scene.image,
+                    "Several of them, treated alike; RGB: the topmost. Adaptation is the beauty's");
   add_output_options(verb, scene.image);
   add_icc_options(verb, options->stages.icc);
   add_common_options(verb, options->common);

@@ -117,6 +117,8 @@ void add_explain(CLI::App& program, Invocation& invocation) {
   add_reading_frame_options(verb, options->frames);
   add_band_options(verb, options->scene.bands);
   add_input_options(verb, options->scene.image);
+  add_layers_option(verb, options->scene.image,
+                    "Several of them, looked at as apply does; RGB: the topmost. Adaptation is the beauty's");
   CLI::Option* const csv =
       verb.add_flag("--csv", options->csv,
                     "The luminance histogram, or a sequence's adaptation, as comma-separated values");

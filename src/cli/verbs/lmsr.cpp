@@ -187,6 +187,7 @@ void add_lmsr(CLI::App& program, Invocation& invocation) {
   add_frame_options(verb, options->frames);
   add_band_options(verb, options->bands);
   add_input_options(verb, options->image);
+  add_layers_option(verb, options->image, "Several of them, treated alike; RGB: the topmost");
   add_common_options(verb, options->common);
   on_command_line(verb, invocation, options, run_lmsr);
 }

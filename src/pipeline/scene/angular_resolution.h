@@ -13,7 +13,7 @@ namespace scotopic {
 AngularResolution angular_resolution(const ViewingChoice& choice, const PixelSource& source,
                                      const ImageLayout& layout);
 
-/// Whether its left side lies beside its right one: --projection, else what an EXR's envmap says.
+/// Whether its left side lies beside its right one: --projection, else what the file says.
 bool is_panorama(const ViewingChoice& choice, const PixelSource& source, const ImageLayout& layout);
 
 }  // namespace scotopic
