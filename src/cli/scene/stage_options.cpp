@@ -4,14 +4,14 @@
 
 #include "cli/options/values.h"
 #include "stages/detail/description.h"
-#include "stages/lamp/description.h"
 
 namespace scotopic {
 namespace {
 
 bool has_options(const StageEntry& entry, StagesShown shown) {
-  const bool before = shown == StagesShown::look && entry.description->name == lamp_description.name;
-  return shown == StagesShown::all || entry.set || before;
+  // The display's are bake's own.
+  const bool held = entry.description->not_in_a_look.empty() && (entry.set || entry.add);
+  return shown == StagesShown::all || entry.set || (shown == StagesShown::look && held);
 }
 
 std::string kind_of(const StageParameter& p) {
