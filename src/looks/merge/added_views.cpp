@@ -48,6 +48,17 @@ bool loads(const OCIO::Config& config, const std::string& from, const char* disp
   }
 }
 
+/// The looks of a view; of one that add_views made, which has its own look last, those that were there
+/// before.
+std::string looks_before_ours(const OCIO::Config& config, const char* display, const std::string& view) {
+  const std::string looks = text(config.getDisplayViewLooks(display, view.c_str()));
+  const bool ends_so = looks.size() >= view.size() && looks.substr(looks.size() - view.size()) == view;
+  // Nobody else names a look, a colour space and a view alike.
+  if (!ends_so || !config.getLook(view.c_str()) || !config.getColorSpace(view.c_str())) return looks;
+  const std::size_t end = looks.find_last_not_of(", ", looks.size() - view.size() - 1);
+  return looks.size() == view.size() || end == std::string::npos ? "" : looks.substr(0, end + 1);
+}
+
 /// What a display's first view of a picture is like that loads; where none does (LUTs may be on another
 /// machine, or wait for a context), what the first is like.
 struct FirstView {
@@ -65,8 +76,8 @@ FirstView first_view(const OCIO::Config& config, const std::string& from, const 
       const bool usable = loads(config, from, display, view);
       if (out.pattern && !usable) continue;
       out.pattern = {text(config.getDisplayViewTransformName(display, view)), space,
-                     text(config.getDisplayViewLooks(display, view)),
-                     text(config.getDisplayViewRule(display, view)), kind == OCIO::VIEW_SHARED};
+                     looks_before_ours(config, display, view), text(config.getDisplayViewRule(display, view)),
+                     kind == OCIO::VIEW_SHARED};
       out.loads = usable;
       if (usable) return out;
     }

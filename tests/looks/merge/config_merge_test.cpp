@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -175,6 +177,25 @@ TEST_P(EveryKind, the_same_names_are_refused_a_second_time) {
     EXPECT_EQ(e.code(), ExitCode::config);
     EXPECT_NE(std::string(e.what()).find(street), std::string::npos);
   }
+}
+
+TEST_P(EveryKind, a_look_of_a_second_merge_is_not_put_behind_that_of_the_first) {
+  std::vector<LookEntry> second(1);
+  second[0].name = "Second";
+  second[0].file = "second.clf";
+  const auto views_of_second = [&](const ColourConfig& config) {
+    const auto text = merge_looks(config, second).text;
+    const auto merged = OCIO::Config::CreateFromFile(folder_.write("twice.ocio", text).c_str());
+    std::map<std::string, std::array<std::string, 3>> out;
+    for (const std::string& display : GetParam().displays)
+      out[display] = {merged->getDisplayViewLooks(display.c_str(), "Second"),
+                      merged->getDisplayViewTransformName(display.c_str(), "Second"),
+                      merged->getDisplayViewColorSpaceName(display.c_str(), "Second")};
+    return out;
+  };
+  const auto alone = views_of_second(*config_);
+  (void)written();
+  EXPECT_EQ(views_of_second(ColourConfig::from_file(file_, {}, GetParam().working)), alone);
 }
 
 TEST_P(EveryKind, line_ends_of_windows_stay) {
