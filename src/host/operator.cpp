@@ -5,6 +5,7 @@
 
 #include "cli/bake/bake_options.h"
 #include "cli/report/scene_json.h"
+#include "pipeline/memory/kept_filters.h"
 #include "pipeline/stages/display_stages.h"
 
 namespace scotopic {
@@ -80,6 +81,7 @@ HostOperator::HostOperator(const Parameters& parameters)
       evaluators_(parse(options_.precision)),
       settings_(parse(options_)) {
   check_view(settings_.request, settings_.config, {});
+  settings_.filter_stages = kept_filters(settings_.filter_stages);
 }
 
 ImageReport HostOperator::apply(const MemoryJob& job, const Notes& notes) const {
@@ -117,6 +119,8 @@ std::optional<int> HostOperator::reach(const MemoryJob& job) const {
   }
   return out;
 }
+
+std::optional<ColourSpace> HostOperator::new_space() const { return new_space_in_memory(settings_); }
 
 nlohmann::ordered_json HostOperator::bake(const std::string& path, const std::string& size,
                                           const std::string& max_error, const Notes& notes) const {

@@ -28,6 +28,8 @@ class HostOperator {
   bool changes_nothing(const MemoryJob& job) const;
   /// Pixels around each that its result depends on; nullopt: all of the image.
   std::optional<int> reach(const MemoryJob& job) const;
+  /// The space that results are in, where that is another than the input's.
+  std::optional<ColourSpace> new_space() const;
   /// The pixel stages as a LUT file, as `scotopic bake` writes it: `size` nodes a side, `max_error` may be
   /// empty. Returns what bake --json says. Needs an adaptation.
   nlohmann::ordered_json bake(const std::string& path, const std::string& size, const std::string& max_error,

@@ -1,6 +1,6 @@
-// The part of the OpenFX Image Effect API (1.4) that is used here: names of properties, actions and types,
-// and the layout of the structures that host and plug-in share, as the API's specification has them. Plain C
-// data: what crosses the border may be from any compiler.
+// The part of the OpenFX Image Effect API that is used here (1.4, and of 1.5 its colour management): names of
+// properties, actions and types, and the layout of the structures that host and plug-in share, as the API's
+// specification has them. Plain C data: what crosses the border may be from any compiler.
 #pragma once
 
 #include <cstddef>
@@ -148,7 +148,9 @@ inline constexpr const char *load = "OfxActionLoad", *unload = "OfxActionUnload"
                             *describe_in_context = "OfxImageEffectActionDescribeInContext",
                             *render = "OfxImageEffectActionRender",
                             *is_identity = "OfxImageEffectActionIsIdentity",
-                            *regions_of_interest = "OfxImageEffectActionGetRegionsOfInterest";
+                            *regions_of_interest = "OfxImageEffectActionGetRegionsOfInterest",
+                            *clip_preferences = "OfxImageEffectActionGetClipPreferences",
+                            *output_colourspace = "OfxImageEffectActionGetOutputColourspace";
 }  // namespace action
 
 namespace context {
@@ -185,7 +187,8 @@ inline constexpr const char *contexts = "OfxImageEffectPropSupportedContexts",
                             *frame_range = "OfxImageEffectPropFrameRange",
                             *render_window = "OfxImageEffectPropRenderWindow",
                             *render_scale = "OfxImageEffectPropRenderScale",
-                            *region_of_interest = "OfxImageEffectPropRegionOfInterest";
+                            *region_of_interest = "OfxImageEffectPropRegionOfInterest",
+                            *clip_preferences_follow = "OfxImageEffectPropClipPreferencesSlaveParam";
 // Of clips and images.
 inline constexpr const char *components_supported = "OfxImageEffectPropSupportedComponents",
                             *components = "OfxImageEffectPropComponents",
@@ -204,7 +207,25 @@ inline constexpr const char *hint = "OfxParamPropHint", *parent = "OfxParamPropP
                             *display_greatest = "OfxParamPropDisplayMax",
                             *choice_option = "OfxParamPropChoiceOption", *animates = "OfxParamPropAnimates",
                             *group_open = "OfxParamPropGroupOpen";
+// Of colour management (1.5): of host, effect and instance; of clips; of the source in clip preferences.
+inline constexpr const char *colour_style = "OfxImageEffectPropColourManagementStyle",
+                            *colour_configs = "OfxImageEffectPropColourManagementAvailableConfigs",
+                            *colourspace = "OfxImageClipPropColourspace",
+                            *preferred_for_source = "OfxImageClipPropPreferredColourspaces_Source";
 }  // namespace property
+
+// Colour management: how much of it, and the config that its names are of.
+namespace colour {
+inline constexpr const char *none = "OfxImageEffectColourManagementNone",
+                            *basic = "OfxImageEffectColourManagementBasic",
+                            *core = "OfxImageEffectColourManagementCore",
+                            *native_config = "ofx-native-v1.5_aces-v1.3_ocio-v2.3",
+                            *of_source = "OfxColourspace_Source";
+// Names that stand for any space of a kind.
+inline constexpr const char *scene_linear = "ofx_scene_linear", *scene_log = "ofx_scene_log",
+                            *display_sdr = "ofx_display_sdr", *display_hdr = "ofx_display_hdr",
+                            *raw = "ofx_raw";
+}  // namespace colour
 
 // Values of those.
 inline constexpr const char *source_clip = "Source", *output_clip = "Output", *rgba = "OfxImageComponentRGBA",

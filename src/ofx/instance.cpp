@@ -9,6 +9,7 @@
 #include "adaptation/time/dark_adaptation.h"
 #include "base/error.h"
 #include "scotopic/controls.h"
+#include "ofx/colour.h"
 #include "ofx/image.h"
 
 namespace scotopic::ofx {
@@ -80,10 +81,14 @@ std::shared_ptr<const HostOperator> Instance::operator_for(const Parameters& par
   return current_;
 }
 
-double Instance::frame_rate() const {
+Properties Instance::properties() const {
   PropertySet set = nullptr;
   (void)suites().effect->get_property_set(effect_, &set);
-  const double rate = Properties(set).number(property::frame_rate, 0);
+  return Properties(set);
+}
+
+double Instance::frame_rate() const {
+  const double rate = properties().number(property::frame_rate, 0);
   return rate > 0 && rate <= 1e6 ? rate : 24;
 }
 
@@ -106,12 +111,22 @@ TrackedAdaptation Instance::track(const PanelState& panel, Time time) const {
   return out;
 }
 
+std::string Instance::source_space() const {
+  if (colour_style(properties()) == ColourStyle::none || !config_in_force()) return "";
+  const std::string said = Properties(source_properties_).text(property::colourspace);
+  return said.empty() ? "" : space_for(said, *config_in_force());
+}
+
 PanelState Instance::ask(const Moment& moment, MemoryJob& job) const {
   PanelState panel = panel_.at(moment.time, moment.scale_x);
   if (panel.moves) job.frame = frame_of(moment.time);
   if (panel.adapts) job.adaptation = track(panel, moment.time);
   if (panel.adapts) panel.parameters.erase(history);
   if (panel.parameters.count("fps") == 0) panel.parameters["fps"] = parameter_text(frame_rate());
+  if (panel.host_space) {
+    const std::string space = source_space();
+    if (!space.empty()) panel.parameters[colour_space] = space;
+  }
   return panel;
 }
 
@@ -163,6 +178,20 @@ std::optional<RectD> Instance::source_region(const Moment& moment, const RectD& 
   if (*reach == 0) return std::nullopt;
   // One more: hosts round regions to pixels.
   return grown(wanted, (*reach + 1) * x, (*reach + 1) * y, all);
+}
+
+const char* Instance::preferred_space() const {
+  const bool asks = colour_style(properties()) != ColourStyle::none && panel_.at(0, 1).host_space;
+  return asks ? colour::scene_linear : nullptr;
+}
+
+std::string Instance::output_space() {
+  const ColourStyle style = colour_style(properties());
+  if (style == ColourStyle::none) return "";
+  MemoryJob job;
+  const std::shared_ptr<const HostOperator> op = operator_for(ask({}, job).parameters);
+  const std::optional<ColourSpace> other = op->new_space();
+  return other ? identifier_of(*other, op->settings().config, style) : colour::of_source;
 }
 
 }  // namespace scotopic::ofx

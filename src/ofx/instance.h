@@ -29,12 +29,19 @@ class Instance {
   bool is_identity(const Moment& moment);
   /// What of the source `wanted` needs, in canonical coordinates; nullopt: the same region.
   std::optional<RectD> source_region(const Moment& moment, const RectD& wanted);
+  /// The colour space that the source is asked for in; nullptr: any.
+  const char* preferred_space() const;
+  /// Of the output, for a host that manages colour; empty for others.
+  std::string output_space();
 
  private:
   std::shared_ptr<const HostOperator> operator_for(const Parameters& parameters);
   /// The parameters, and the job without its pixels.
   PanelState ask(const Moment& moment, MemoryJob& job) const;
+  /// As the host has it; empty where it says nothing.
+  std::string source_space() const;
   TrackedAdaptation track(const PanelState& panel, Time time) const;
+  Properties properties() const;
   double frame_rate() const;
   double pixel_aspect() const;
 

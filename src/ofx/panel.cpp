@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "adaptation/named_adaptations.h"
-#include "base/error.h"
-#include "color/colour_config.h"
 #include "scotopic/controls.h"
+#include "ofx/colour.h"
 #include "ofx/suites.h"
 #include "pipeline/stages/stage_values.h"
 
@@ -19,7 +18,7 @@ namespace {
 
 // Names of what is not one parameter of the operator.
 constexpr const char *scene = "scene", *log_adaptation = "log10_adaptation", *effects_choice = "effects",
-                     *moving = "moving", *in_time = "adapt_in_time", *colour_space = "colorspace";
+                     *moving = "moving", *in_time = "adapt_in_time";
 constexpr std::array effects_words = {"auto", "all", "none", "listed"};
 constexpr const char* first_group = "What is seen";
 // Of the slider, log10 cd/m2: from what rods just see to daylight.
@@ -38,16 +37,14 @@ std::string label_of(std::string name) {
   return name;
 }
 
-/// Of the config in force; the first is its working space.
+/// Of the config in force, after two words.
 const std::vector<std::string>& spaces() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> out = {"working space"};
-    try {
-      const auto config = ColourConfig::in_force("").ocio();
+    std::vector<std::string> out = {"the host's, else working space", "working space"};
+    if (config_in_force()) {
+      const auto config = config_in_force()->ocio();
       for (int i = 0; i < config->getNumColorSpaces(); ++i)
         out.emplace_back(config->getColorSpaceNameByIndex(i));
-    } catch (const Error&) {
-      // Told when it is used.
     }
     return out;
   }();
@@ -232,7 +229,8 @@ PanelState Panel::at(Time time, double scale) const {
         value = c.words[static_cast<std::size_t>(place)];
     } else if (c.name == colour_space) {
       const auto place = static_cast<std::size_t>(std::max(0, integer(c.name, time)));
-      if (place > 0 && place < spaces().size()) value = spaces()[place];
+      out.host_space = place == 0;
+      if (place > 1 && place < spaces().size()) value = spaces()[place];
     } else {
       value = text(c.name, time);
     }

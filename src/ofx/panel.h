@@ -12,11 +12,15 @@ namespace scotopic::ofx {
 /// What no parameter of the operator is.
 struct PanelState {
   Parameters parameters;
-  double slider = 0;      ///< adaptation luminance of the slider, cd/m2
-  bool by_slider = true;  ///< and no name, nor metering
-  bool moves = true;      ///< images are frames of a sequence
-  bool adapts = false;    ///< the eye follows the slider in time
+  double slider = 0;       ///< adaptation luminance of the slider, cd/m2
+  bool by_slider = true;   ///< and no name, nor metering
+  bool moves = true;       ///< images are frames of a sequence
+  bool adapts = false;     ///< the eye follows the slider in time
+  bool host_space = true;  ///< the host's word on the input's colour space is taken
 };
+
+/// The parameter that says whose it is.
+inline constexpr const char* colour_space = "colorspace";
 
 /// Defines all of it.
 void define_panel(ParamSet set);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "ofx/colour.h"
 #include "ofx/instance.h"
 #include "ofx/panel.h"
 #include "ofx/suites.h"
@@ -44,6 +45,7 @@ Status describe(ImageEffect effect) {
   p.set(property::temporal_access, 0);
   p.set(property::multiple_clip_depths, 0);
   p.set(property::multiple_clip_pars, 0);
+  describe_colour(p);
   return ok;
 }
 
@@ -59,6 +61,7 @@ Status describe_in_context(ImageEffect effect) {
   ParamSet set = nullptr;
   if (suites().effect->get_param_set(effect, &set) != ok) return failed;
   define_panel(set);
+  properties_of(effect).set(property::clip_preferences_follow, colour_space);
   return ok;
 }
 
@@ -114,6 +117,20 @@ Status regions_of_interest(ImageEffect effect, const Properties& in, const Prope
   return ok;
 }
 
+Status clip_preferences(ImageEffect effect, const Properties& out) {
+  const char* const space = instance_of(effect).preferred_space();
+  if (!space) return reply_default;
+  out.set(property::preferred_for_source, space);
+  return ok;
+}
+
+Status output_colourspace(ImageEffect effect, const Properties& out) {
+  const std::string space = instance_of(effect).output_space();
+  if (space.empty()) return reply_default;
+  out.set(property::colourspace, space);
+  return ok;
+}
+
 Status act(const std::string& name, ImageEffect effect, const Properties& in, const Properties& out) {
   if (name == action::load) return fetch_suites() ? ok : missing_feature;
   if (name == action::unload) return ok;
@@ -124,12 +141,15 @@ Status act(const std::string& name, ImageEffect effect, const Properties& in, co
   if (name == action::render) return render(effect, in);
   if (name == action::is_identity) return is_identity(effect, in, out);
   if (name == action::regions_of_interest) return regions_of_interest(effect, in, out);
+  if (name == action::clip_preferences) return clip_preferences(effect, out);
+  if (name == action::output_colourspace) return output_colourspace(effect, out);
   return reply_default;
 }
 
 /// Whether a failure is told now: render will meet the same, and tells it once.
 bool is_told(const std::string& name) {
-  return name != action::is_identity && name != action::regions_of_interest;
+  return name != action::is_identity && name != action::regions_of_interest &&
+         name != action::clip_preferences && name != action::output_colourspace;
 }
 
 Status main_entry(const char* name, const void* handle, PropertySet in, PropertySet out) {

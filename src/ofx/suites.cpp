@@ -67,6 +67,8 @@ std::optional<RectI> Properties::rectangle(const char* name) const {
   return RectI{v[0], v[1], v[2], v[3]};
 }
 
+Properties host_properties() noexcept { return Properties(host ? host->host : nullptr); }
+
 void show_error(ImageEffect effect, const std::string& text) noexcept {
   if (all.message && all.message->message)
     (void)all.message->message(effect, message_error, "scotopic", "%s", text.c_str());

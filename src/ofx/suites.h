@@ -44,6 +44,9 @@ class Properties {
   PropertySet set_;
 };
 
+/// The host's own.
+Properties host_properties() noexcept;
+
 /// Tells the user of the host.
 void show_error(ImageEffect effect, const std::string& text) noexcept;
 

@@ -89,7 +89,7 @@ TestHost::TestHost(const std::string& module, const std::string& lacking) {
   if (!count || !get || count() != 1 || get(1)) throw std::runtime_error("not one plug-in");
   plugin_ = get(0);
   leave_out_suite(lacking);
-  host_ = {nullptr, suite};
+  host_ = {&host_properties_, suite};
   plugin_->set_host(&host_);
 }
 
@@ -98,6 +98,12 @@ TestHost::~TestHost() { (void)call(action::unload, nullptr); }
 
 Status TestHost::call(const char* action, ImageEffect effect, PropertySet in, PropertySet out) const {
   return plugin_->main_entry(action, effect, in, out);
+}
+
+void TestHost::offer_colour(const std::string& style) {
+  if (style.empty()) return;
+  host_properties_.set(property::colour_style, {style});
+  host_properties_.set(property::colour_configs, {std::string(colour::native_config)});
 }
 
 Status TestHost::open(const char* context) {
@@ -109,6 +115,18 @@ Status TestHost::open(const char* context) {
   return call(action::describe_in_context, &description_, &in);
 }
 
+// The lesser of what both can, as the API's specification has it; nothing where one says nothing.
+void TestHost::agree_on_colour(ImageEffectStruct& effect) const {
+  const std::string offered = host_properties_.text(property::colour_style);
+  effect.properties.values.erase(property::colour_style);
+  if (offered.empty()) return;
+  const bool both = description_.properties.count(property::colour_style) > 0;
+  const bool less = offered == colour::basic;
+  effect.properties.set(property::colour_style, {std::string(!both  ? colour::none
+                                                             : less ? colour::basic
+                                                                    : colour::core)});
+}
+
 std::unique_ptr<ImageEffectStruct> TestHost::instance() {
   auto out = std::make_unique<ImageEffectStruct>(description_);
   for (auto& [name, param] : out->params.params) {
@@ -117,6 +135,7 @@ std::unique_ptr<ImageEffectStruct> TestHost::instance() {
     param.text = param.properties.text(property::initial);
   }
   out->properties.set(property::frame_rate, {24.0});
+  agree_on_colour(*out);
   if (call(action::create_instance, out.get()) != ok) throw std::runtime_error("no instance");
   return out;
 }

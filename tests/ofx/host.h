@@ -89,6 +89,8 @@ class TestHost {
 
   ofx::Status call(const char* action, ofx::ImageEffect effect, ofx::PropertySet in = nullptr,
                    ofx::PropertySet out = nullptr) const;
+  /// From now on a host of OpenFX 1.5 that offers colour management up to `style`; empty: one of 1.4.
+  void offer_colour(const std::string& style);
   /// Load, describe, describe in context: the effect's panel; the status of what failed first.
   ofx::Status open(const char* context = ofx::context::filter);
   /// A copy of the description with default values, created.
@@ -100,9 +102,12 @@ class TestHost {
   std::vector<std::string> take_messages();
 
  private:
+  void agree_on_colour(ofx::ImageEffectStruct& effect) const;
+
   void* module_;
   ofx::Plugin* plugin_ = nullptr;
   ofx::Host host_{};
+  ofx::PropertySetStruct host_properties_;
   ofx::ImageEffectStruct description_;
 };
 

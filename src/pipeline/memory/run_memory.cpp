@@ -1,5 +1,6 @@
 #include "pipeline/memory/run_memory.h"
 
+#include <cstddef>
 #include <utility>
 
 #include "base/error.h"
@@ -88,6 +89,16 @@ ImageReport run_image(const MemoryJob& job, const ImageSettings& settings, Evalu
 AngularResolution resolution_in_memory(const ImageSettings& settings, const MemoryJob& job) {
   const OpenImage image = open_memory(job, settings, {}, true);
   return angular_resolution(settings.viewing, *image.source, image.layout);
+}
+
+std::optional<ColourSpace> new_space_in_memory(const ImageSettings& settings) {
+  std::byte none[12] = {};
+  MemoryJob job;
+  job.in = {none, 1, 1, 3, 12, 12, 4, SampleType::float32};
+  job.header.data = job.header.display = {0, 0, 1, 1};
+  const ImageLayout layout = open_memory(job, settings, {}, true).layout;
+  if (settings.config.same(layout.light.front().space, layout.output_space)) return std::nullopt;
+  return layout.output_space;
 }
 
 SceneReport read_scene(const MemoryJob& job, const ImageSettings& settings, Statistics wanted,

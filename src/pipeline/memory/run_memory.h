@@ -29,6 +29,9 @@ ImageReport run_image(const MemoryJob& job, const ImageSettings& settings, Evalu
 /// Pixels per degree of such an image; only its header is looked at.
 AngularResolution resolution_in_memory(const ImageSettings& settings, const MemoryJob& job);
 
+/// The space that results are in, where that is another than the input's.
+std::optional<ColourSpace> new_space_in_memory(const ImageSettings& settings);
+
 /// As read_scene(): `out` and `window` are not looked at.
 SceneReport read_scene(const MemoryJob& job, const ImageSettings& settings, Statistics wanted,
                        const Notes& notes);
