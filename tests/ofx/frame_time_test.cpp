@@ -93,5 +93,38 @@ TEST(FrameTime, DISABLED_of_4k_in_a_host_and_of_the_operator_alone) {
   }
 }
 
+/// What filters work by is made for the first tile and kept for the others, which would make it twice each.
+TEST(FrameTime, DISABLED_of_a_tile_and_of_what_its_filter_works_by) {
+  TestHost host(SCOTOPIC_OFX);
+  ASSERT_EQ(host.open(), ofx::ok);
+  HostImage source(frame_4k, 4, Depth::float32);
+  fill(source);
+  std::printf(
+      "| filter | tables, ms | tile of 256 x 256, ms | ratio with and without |\n|---|---|---|---|\n");
+  for (const Setting& setting : settings()) {
+    if (setting.needs != Setting::Needs::halo) continue;
+    const HostOperator op(parameters_of(setting));
+    MemoryJob job;
+    job.in = pixels_of(source);
+    job.header.data = job.header.display = {0, 0, wide, high};
+    const double both = seconds([&] { (void)op.reach(job); });
+    const double tables = both - seconds([&] { (void)op.reach(job); });
+    const auto effect = host.instance();
+    setting.set(*effect);
+    Clips clips(*effect, frame_4k, frame_4k, 4, Depth::float32);
+    clips.source = source;
+    clips.source.describe(effect->clips.at(ofx::source_clip).image, frame_4k);
+    double tile = std::numeric_limits<double>::max();
+    for (int i = 0; i < 15; ++i)
+      tile = std::min(tile, seconds([&] {
+                        const ofx::RectI window = {256 * i, 512, 256 * i + 256, 768};
+                        ASSERT_EQ(render(host, *effect, window), ofx::ok);
+                      }));
+    std::printf("| %-20s | %.2f | %.2f | %.2f |\n", setting.name, 1e3 * tables, 1e3 * tile,
+                (tile + 2 * tables) / tile);
+    host.destroy(*effect);
+  }
+}
+
 }  // namespace
 }  // namespace scotopic::test
