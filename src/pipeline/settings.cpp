@@ -45,7 +45,9 @@ EffectDecision asked_at_resolution(const StageValues& values, const StageDescrip
     throw Error(ExitCode::usage, "",
                 std::string(stage.name) + " needs pixels per degree, which are not known: --fov or --ppd");
   EffectDecision d{.effect = stage.name};
-  d.asked = by_name || (wish == EffectWish::if_known && model_has_it && scene.resolution.known);
+  const bool where_known = wish == EffectWish::if_known && model_has_it;
+  d.asked = by_name || (where_known && scene.resolution.known);
+  d.left_out = where_known && !scene.resolution.known;
   d.reason = scene.resolution.known ? "not asked for" : "pixels per degree are not known (--ppd, --fov)";
   return d;
 }

@@ -19,8 +19,9 @@ inline constexpr double sp_tolerance = 0.002;
 struct EffectDecision {
   std::string_view effect;  ///< the stage's name
   bool asked = false;
-  bool needed = false;  ///< the scene calls for it
-  double number = 0;    ///< what decided, in `unit`
+  bool left_out = false;  ///< would be asked for, were pixels per degree known
+  bool needed = false;    ///< the scene calls for it
+  double number = 0;      ///< what decided, in `unit`
   double threshold = 0;
   std::string_view unit{};
   std::string reason{};   ///< one sentence holding number and threshold

@@ -67,6 +67,23 @@ TEST_F(Plan, a_scene_that_calls_for_nothing_keeps_every_bit_and_says_so) {
   EXPECT_EQ(apply("quiet.exr", {"--adaptation", "5", "-q"}).err, "");
 }
 
+TEST_F(Plan, what_is_left_out_because_no_angle_is_known_is_said) {
+  const std::string why = " (pixels per degree are not known (--ppd, --fov))";
+  for (const char* effects : {"auto", "all"})
+    EXPECT_NE(apply("out.exr", {"--adaptation", "0.1", "--effects", effects})
+                  .err.find("; left out glare, detail" + why),
+              std::string::npos);
+  EXPECT_NE(apply("out.exr", {"--adaptation", "0.1", "--detail", "none"}).err.find("; left out glare" + why),
+            std::string::npos);
+  for (const std::vector<std::string>& option : {std::vector<std::string>{"--ppd", "30"},
+                                                 {"--effects", "shift"},
+                                                 {"--glare", "none", "--detail", "none"}}) {
+    std::vector<std::string> arguments = {"--adaptation", "0.1"};
+    arguments.insert(arguments.end(), option.begin(), option.end());
+    EXPECT_EQ(apply("out.exr", arguments).err.find("left out"), std::string::npos) << option[0];
+  }
+}
+
 TEST_F(Plan, skipping_and_not_skipping_give_the_same_bits_around_the_limit) {
   for (const char* adaptation : {"4.999", "5", "5.001", "0.5"})
     for (const char* threads : {"1", "3"}) {

@@ -37,16 +37,21 @@ ScenePlan plan_of(const OperatorChoice& choice, const AppearanceParameters& scen
 }
 
 std::string plan_line(const ScenePlan& plan) {
-  std::string runs, skipped;
+  std::string runs, skipped, left_out, why;
+  const auto add = [](std::string& list, std::string_view item) {
+    list += (list.empty() ? "" : ", ") + std::string(item);
+  };
   for (const EffectDecision& d : plan.effects) {
-    if (!d.asked) continue;
-    if (d.runs())
-      runs += (runs.empty() ? "" : ", ") + std::string(d.effect);
-    else
-      skipped += (skipped.empty() ? "" : ", ") + std::string(d.effect) + " (" + d.reason + ")";
+    if (d.runs()) add(runs, d.effect);
+    if (d.asked && !d.needed) add(skipped, std::string(d.effect) + " (" + d.reason + ")");
+    if (!d.left_out) continue;
+    add(left_out, d.effect);
+    why = d.reason;
   }
-  if (runs.empty()) runs = "nothing to do";
-  return skipped.empty() ? runs : runs + "; skipped " + skipped;
+  std::string line = runs.empty() ? "nothing to do" : runs;
+  if (!skipped.empty()) line += "; skipped " + skipped;
+  if (!left_out.empty()) line += "; left out " + left_out + " (" + why + ")";
+  return line;
 }
 
 }  // namespace scotopic

@@ -66,7 +66,7 @@ void decide_acuity(const StageScene& scene, EffectDecision& d) {
 EffectDecision DetailStage::decide(const StageScene& scene) const {
   const bool off = filter_ == DetailFilter::none || !(strength(scene) > 0);
   EffectDecision d = asked_at_resolution(values_, detail_description, values_.given("detail") && !off, scene);
-  if (off) d.asked = false;
+  if (off) d.asked = d.left_out = false;
   if (!scene.resolution.known) return d;
   if (filter_ == DetailFilter::contrast)
     decide_contrast(scene, shown_.peak, d);

@@ -55,7 +55,7 @@ EffectDecision GlareStage::decide(const StageScene& scene) const {
   const bool named = values_.given("glare") && !off_;
   EffectDecision d = asked_at_resolution(values_, glare_description, named, scene);
   d.unit = "pixels";
-  if (off_ || !(strength(scene) > 0)) d.asked = false;
+  if (off_ || !(strength(scene) > 0)) d.asked = d.left_out = false;
   return d;
 }
 

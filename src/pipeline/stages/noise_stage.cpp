@@ -80,11 +80,11 @@ EffectDecision NoiseStage::decide(const StageScene& scene) const {
   EffectDecision d = asked_at_resolution(values_, noise_description, false, scene);
   const bool by_name = values_.wish(noise_description.name) == EffectWish::yes;
   if (!by_name && !scene.sequence) {
-    d.asked = false;
+    d.asked = d.left_out = false;
     d.reason = "noise moves: not in a still, unless --effects names it";
   }
   const RodNoiseParameters p = parameters_in(values_, scene);
-  if (!(p.strength > 0)) d.asked = false;
+  if (!(p.strength > 0)) d.asked = d.left_out = false;
   if (!d.asked) return d;
   const RodNoiseNeed need = rod_noise_need(p);
   d.needed = need.needed;
