@@ -1,6 +1,7 @@
 #include "stages/glare/filter.h"
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "stages/glare/plan.h"
@@ -37,14 +38,11 @@ void GlareFilter::apply(const GlarePicture& picture, const ParallelFor& parallel
   glare::check_subimage(*plan_, picture);
   const GlareParameters& p = plan_->parameters;
   if (p.grid.strength == 0) return;
-  if (p.rule == GlareRule::above && count_above(*plan_, picture, parallel_for) == 0) return;
+  if (p.rule == GlareRule::above && !any_above(*plan_, picture, parallel_for)) return;
+  const std::optional<glare::Constants> less = constants(*plan_, picture, parallel_for);
+  if (!less) return;
   glare::Excess excess = excess_of(*plan_, picture);
-  // Found at once in a night; a picture that scatters whole has no such pixel as a rule.
-  if (p.rule == GlareRule::all || !glare::some_pixel_keeps_all(*plan_, picture)) {
-    const glare::Extremes found = extremes(*plan_, picture, parallel_for);
-    if (found.flat()) return;
-    for (std::size_t k = 0; k < picture.light.size(); ++k) excess.less[k] = found.constant(k);
-  }
+  excess.less = *less;
   glare::Run(*plan_, picture, excess).apply(parallel_for);
 }
 

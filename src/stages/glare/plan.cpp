@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace scotopic::glare {
@@ -32,6 +34,28 @@ struct ExcessRows {
   std::array<float*, most_planes> out{};
 };
 
+/// Of all rows, or of some of them where `end` says of what a task found that it will do; and whether it did.
+template <typename End>
+std::pair<Extremes, bool> extremes_until(const Plan& plan, const GlarePicture& picture,
+                                         const ParallelFor& parallel_for, End end) {
+  const Excess excess = excess_of(plan, picture);
+  std::vector<Extremes> parts(static_cast<std::size_t>(tasks_of(plan.height())));
+  std::atomic<bool> ended{false};
+  for_bands(plan.height(), rows_of_task, parallel_for, [&](int task, int first, int last) {
+    ExcessRows own(plan, excess.planes);
+    Extremes& part = parts[static_cast<std::size_t>(task)];
+    for (int y = first; y < last && !ended; ++y) {
+      excess_row(excess, row_of(picture, y), own.out.data(), own.lit.data(), plan.width());
+      add_row(own.rows, excess.planes, plan.width(), part);
+      if (end(part)) ended = true;
+    }
+  });
+  Extremes all;
+  for (const Extremes& part : parts)
+    for (std::size_t k = 0; k < most_light; ++k) all.add(k, part.least[k], part.greatest[k]);
+  return {all, ended};
+}
+
 }  // namespace
 
 Extremes::Extremes() {
@@ -55,25 +79,26 @@ bool Extremes::flat() const {
   return true;
 }
 
-bool some_pixel_keeps_all(const Plan& plan, const GlarePicture& picture) {
-  const Excess excess = excess_of(plan, picture);
-  ExcessRows own(plan, excess.planes);
-  for (int y = 0; y < plan.height(); ++y) {
-    excess_row(excess, row_of(picture, y), own.out.data(), own.lit.data(), plan.width());
-    for (int x = 0; x < plan.width(); ++x) {
-      const auto none = [x](const float* row) { return row[x] == 0; };
-      if (own.out[static_cast<std::size_t>(excess.planes)][x] != 0 &&
-          std::all_of(own.out.begin(), own.out.begin() + excess.planes, none))
-        return true;
-    }
-  }
-  return false;
+bool Extremes::hold_zero(std::size_t planes) const {
+  for (std::size_t k = 0; k < planes; ++k)
+    if (!(least[k] <= 0 && greatest[k] >= 0)) return false;
+  return true;
 }
 
 void for_bands(int height, int rows, const ParallelFor& parallel_for,
                const std::function<void(int, int, int)>& task) {
   parallel_for((height + rows - 1) / rows,
                [&](int i) { task(i, i * rows, std::min((i + 1) * rows, height)); });
+}
+
+bool any_above(const Plan& plan, const GlarePicture& picture, const ParallelFor& parallel_for) {
+  std::atomic<bool> found{false};
+  for_bands(plan.height(), rows_of_task, parallel_for, [&](int, int begin, int end) {
+    for (int y = begin; y < end && !found; ++y)
+      if (!known_below(plan, picture, y) && count_above(row_of(picture, y), plan.threshold, plan.width()) > 0)
+        found = true;
+  });
+  return found;
 }
 
 std::ptrdiff_t count_above(const Plan& plan, const GlarePicture& picture, const ParallelFor& parallel_for) {
@@ -88,19 +113,21 @@ std::ptrdiff_t count_above(const Plan& plan, const GlarePicture& picture, const 
 }
 
 Extremes extremes(const Plan& plan, const GlarePicture& picture, const ParallelFor& parallel_for) {
-  const Excess excess = excess_of(plan, picture);
-  std::vector<Extremes> parts(static_cast<std::size_t>(tasks_of(plan.height())));
-  for_bands(plan.height(), rows_of_task, parallel_for, [&](int task, int begin, int end) {
-    ExcessRows own(plan, excess.planes);
-    for (int y = begin; y < end; ++y) {
-      excess_row(excess, row_of(picture, y), own.out.data(), own.lit.data(), plan.width());
-      add_row(own.rows, excess.planes, plan.width(), parts[static_cast<std::size_t>(task)]);
-    }
-  });
-  Extremes all;
-  for (const Extremes& part : parts)
-    for (std::size_t k = 0; k < most_light; ++k) all.add(k, part.least[k], part.greatest[k]);
-  return all;
+  const auto no_end = [](const Extremes&) { return false; };
+  return extremes_until(plan, picture, parallel_for, no_end).first;
+}
+
+// Zero is in a night's first row: whatever the others hold, the constants are then 0.
+std::optional<Constants> constants(const Plan& plan, const GlarePicture& picture,
+                                   const ParallelFor& parallel_for) {
+  const auto planes = picture.light.size();
+  const auto settled = [planes](const Extremes& found) { return found.hold_zero(planes); };
+  const auto [found, ended] = extremes_until(plan, picture, parallel_for, settled);
+  Constants out{};
+  if (ended) return out;
+  if (found.flat()) return std::nullopt;
+  for (std::size_t k = 0; k < planes; ++k) out[k] = found.constant(k);
+  return out;
 }
 
 void check_subimage(const Plan& plan, const GlarePicture& picture) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <optional>
 
 #include "stages/glare/filter.h"
 #include "stages/glare/picture_rows.h"
@@ -44,6 +45,9 @@ inline bool known_below(const Plan& plan, const GlarePicture& picture, int y) {
   return picture.greatest != nullptr && picture.greatest[y] <= plan.threshold;
 }
 
+/// Whether there is a finite pixel with v > threshold.
+bool any_above(const Plan& plan, const GlarePicture& picture, const ParallelFor& parallel_for);
+
 /// Finite pixels with v > threshold.
 std::ptrdiff_t count_above(const Plan& plan, const GlarePicture& picture, const ParallelFor& parallel_for);
 
@@ -56,12 +60,17 @@ struct Extremes {
   float constant(std::size_t plane) const;
   /// Whether no plane has two values.
   bool flat() const;
+  /// Whether the constant of each of the first `planes` planes is 0 whatever else is added.
+  bool hold_zero(std::size_t planes) const;
 
   std::array<float, most_light> least, greatest;
 };
 
-/// Whether a finite pixel has no excess in any plane: then the constant of every plane is 0.
-bool some_pixel_keeps_all(const Plan& plan, const GlarePicture& picture);
+/// What is taken from each plane's excess so that a flat picture has none; nothing where no plane has two
+/// values.
+using Constants = std::array<float, most_light>;
+std::optional<Constants> constants(const Plan& plan, const GlarePicture& picture,
+                                   const ParallelFor& parallel_for);
 
 /// Of what scatters.
 Extremes extremes(const Plan& plan, const GlarePicture& picture, const ParallelFor& parallel_for);
