@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "stages/glare/pyramid/coarse_rows.h"
+
 namespace scotopic::glare {
 namespace {
 
@@ -28,6 +30,24 @@ float column_of_ones(const HalfTaps& taps, int y, int height) {
   return static_cast<float>(sum);
 }
 
+/// To the steps beside lit ones: a rung reaches less than a step to either side, elsewhere it would add
+/// zeros.
+void widen(std::vector<std::uint8_t>& lit, bool meet) {
+  const std::size_t steps = lit.size();
+  if (steps == 1) return;
+  const std::uint8_t first = lit[0], next_to_last = lit[steps - 2], last = lit[steps - 1];
+  for (std::size_t i = 0, left = 0; i < steps; ++i) {
+    const std::uint8_t own = lit[i], right = i + 1 < steps ? lit[i + 1] : std::uint8_t{0};
+    lit[i] = static_cast<std::uint8_t>(left | own | right);
+    left = own;
+  }
+  if (!meet) return;
+  // The last step may be narrower than a rung reaches, which then ends in the one beyond.
+  lit[0] |= last | next_to_last;
+  lit[steps - 2] |= first;
+  lit[steps - 1] |= first;
+}
+
 }  // namespace
 
 /// The rows that a band is computed from, as it goes down.
@@ -42,6 +62,7 @@ struct Run::Window {
         ring_lit(static_cast<std::size_t>(size) * steps),
         lit(steps),
         blurred(run.level().width, run.planes() + run.rings()),
+        coarse(run.pyramid_),
         scratch(run.level().width) {}
   float* row(int plane, int y) { return ring.row(static_cast<std::ptrdiff_t>(plane) * size + y % size); }
   const float* row(int plane, int y) const {
@@ -60,6 +81,7 @@ struct Run::Window {
   std::vector<std::uint8_t> ring_lit;
   std::vector<std::uint8_t> lit;  ///< where the row in hand has a lit sample within reach
   Rows blurred;
+  CoarseRows coarse;
   Scratch scratch;
 };
 
@@ -79,6 +101,7 @@ std::size_t Run::bytes(const Plan& plan, int light, int threads) {
                                             Pyramid::rings(plan.ladder, planes) + most_rungs + 1);
   const auto rows = own + static_cast<std::size_t>(rows_kept(plan.ladder, planes)) + most_rungs + 1;
   return Pyramid::bytes(plan.ladder, planes) +
+         static_cast<std::size_t>(threads) * CoarseRows::bytes(plan.ladder, planes) +
          rows * static_cast<std::size_t>(row_floats(plan.width())) * sizeof(float);
 }
 
@@ -131,7 +154,6 @@ const std::uint8_t* Run::lit_at(const Window& window, int y) const {
   return sides_lit_.data() + kept(window, y) * steps();
 }
 
-// A rung reaches less than one step to either side: elsewhere it would add zeros.
 void Run::see_lit(Window& window, int y) const {
   std::vector<std::uint8_t>& lit = window.lit;
   std::fill(lit.begin(), lit.end(), std::uint8_t{0});
@@ -140,15 +162,7 @@ void Run::see_lit(Window& window, int y) const {
     const std::uint8_t* const row = lit_at(window, j);
     for (std::size_t i = 0; i < lit.size(); ++i) lit[i] |= row[i];
   }
-  const bool meet = plan_.ladder.sides == GlareSides::meet;
-  const std::uint8_t first = lit.front(), last = lit.back();
-  std::uint8_t left = meet ? last : std::uint8_t{0};
-  if (meet && lit.size() > 1) left |= lit[lit.size() - 2];  // the last step may be narrower than the reach
-  for (std::size_t i = 0; i < lit.size(); ++i) {
-    const std::uint8_t own = lit[i], right = i + 1 < lit.size() ? lit[i + 1] : meet ? first : std::uint8_t{0};
-    lit[i] = own | left | right;
-    left = own;
-  }
+  widen(lit, plan_.ladder.sides == GlareSides::meet);
 }
 
 // Where all pixels are finite the mask is a row of ones times a column of ones, and so is each rung of it.
@@ -182,7 +196,7 @@ void Run::blur_row(Window& window, int plane, int y, bool everywhere) const {
   for (int d = -reach; d <= reach; ++d)
     rows[static_cast<std::size_t>(reach + d)] = row_at(window, plane, y + d);
   float* const out = window.blurred.row(plane);
-  pyramid_.coarse_row(plane, y, window.scratch, out);
+  window.coarse.row(plane, y, window.scratch, out);
   for (std::size_t i = 0; i < window.lit.size();) {
     const std::size_t begin = i;
     while (i < window.lit.size() && (everywhere || window.lit[i] != 0)) ++i;
@@ -197,7 +211,7 @@ void Run::blur_row(Window& window, int plane, int y, bool everywhere) const {
 
 void Run::blur_mask_of_ones(Window& window, int y) const {
   float* const out = window.blurred.row(mask());
-  pyramid_.coarse_row(mask(), y, window.scratch, out);
+  window.coarse.row(mask(), y, window.scratch, out);
   for (std::size_t r = 0; r < level().rungs.size(); ++r)
     add_scaled(ones_.row(static_cast<std::ptrdiff_t>(r)),
                column_of_ones(level().rungs[r].y, y, level().height), out, level().width);
@@ -214,7 +228,7 @@ void Run::scatter_band(int begin, int end) {
     else
       blur_row(window, mask(), y, true);
     for (int r = planes(); r < planes() + rings(); ++r)
-      pyramid_.coarse_row(r, y, window.scratch, window.blurred.row(r));
+      window.coarse.row(r, y, window.scratch, window.blurred.row(r));
     std::array<const float*, most_planes> own{};
     std::array<const float*, most_planes + most_light> come{};
     for (int p = 0; p < planes(); ++p) own[static_cast<std::size_t>(p)] = window.row(p, y);

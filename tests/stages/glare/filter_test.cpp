@@ -2,15 +2,12 @@
 #include "stages/glare/filter.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <numeric>
-#include <random>
 #include <stdexcept>
 
 #include "stages/glare/judge.h"
@@ -19,6 +16,7 @@ namespace scotopic {
 namespace {
 
 using test::filtered;
+using test::night;
 using test::Picture;
 using test::Plane;
 using test::same_bits;
@@ -27,21 +25,6 @@ using test::sum;
 
 GlareParameters parameters(int width, int height, double ppd = 20, GlareRule rule = GlareRule::above) {
   return {{}, square_grid(width, height, ppd), rule, 1};
-}
-
-/// Dark ground with noise, `lamps` coloured lamps of up to 10^decades.
-Picture night(int width, int height, int lamps, double decades = 4, unsigned seed = 1) {
-  Picture out(width, height);
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> unit(0, 1);
-  for (Plane& plane : out.planes)
-    for (float& x : plane.values) x = static_cast<float>(0.001 + 0.1 * unit(random));
-  for (int i = 0; i < lamps; ++i) {
-    const int x = static_cast<int>(unit(random) * width), y = static_cast<int>(unit(random) * height);
-    const double level = std::pow(10, decades * unit(random));
-    for (Plane& plane : out.planes) plane(x, y) = static_cast<float>(level * (0.2 + unit(random)));
-  }
-  return out;
 }
 
 TEST(GlareFilter, flat_pictures_keep_their_bits) {
@@ -197,65 +180,6 @@ TEST(GlareFilter, other_planes_scatter_by_the_share_that_rgb_decides) {
   }
 }
 
-TEST(GlareFilter, threads_do_not_show) {
-  Picture in = night(211, 420, 40);
-  for (const bool hole : {false, true}) {
-    if (hole) in.planes[0](100, 128) = std::nanf("");
-    const Picture one = filtered(parameters(211, 420), in);
-    for (const int n : {2, 5})
-      EXPECT_TRUE(same_bits(one, filtered(parameters(211, 420), in, test::threads(n)))) << n;
-    const ParallelFor backwards = [](int count, const std::function<void(int)>& task) {
-      for (int i = count; i-- > 0;) task(i);
-    };
-    EXPECT_TRUE(same_bits(one, filtered(parameters(211, 420), in, backwards)));
-  }
-}
-
-TEST(GlareFilter, instruction_sets_do_not_show) {
-  Picture in = night(211, 150, 40);
-  in.planes[0](100, 128) = std::nanf("");
-  GlareParameters odd = parameters(211, 150);
-  odd.grid.ppd_x = 13;
-  const auto choose = [](std::int64_t targets) {
-    hwy::SetSupportedTargetsForTest(targets);
-    hwy::GetChosenTarget().DeInit();
-  };
-  for (const GlareParameters& p : {parameters(211, 150), parameters(211, 150, 20, GlareRule::all), odd}) {
-    choose(0);
-    const Picture best = filtered(p, in);
-    int sets = 0;
-    for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1, ++sets) {
-      choose(left & -left);
-      EXPECT_TRUE(same_bits(best, filtered(p, in))) << hwy::TargetName(left & -left);
-    }
-    choose(0);
-    EXPECT_GE(sets, 1);
-  }
-}
-
-// Where nothing near is lit the filter leaves rungs out; the bare pyramid does not.
-TEST(GlareFilter, what_is_left_out_would_have_been_zero) {
-  for (const GlareSides sides : {GlareSides::end, GlareSides::meet})
-    for (const double ppd_x : {8.0, 16.0}) {
-      GlareParameters p = parameters(320, 150);
-      p.grid = {320, 150, ppd_x, 8, sides, 1};
-      Picture in(320, 150);
-      const std::pair<int, int> lamps[] = {{0, 0},     {319, 2},  {63, 127}, {64, 40},  {126, 128},
-                                           {192, 149}, {255, 75}, {256, 90}, {257, 104}};
-      for (Plane& plane : in.planes)
-        for (const auto& [x, y] : lamps) plane(x, y) = 1000;
-      Plane excess = in.planes[0];
-      for (float& x : excess.values) x = std::max(0.0f, x - 1);
-      const GlareFunction function({});
-      const Plane come = test::convolved(function, p.grid, excess);
-      const Picture out = filtered(p, in);
-      for (std::size_t i = 0; i < come.values.size(); ++i)
-        if (excess.values[i] == 0) {
-          EXPECT_EQ(out.planes[1].values[i], come.values[i]) << i % 320 << " " << i / 320;
-        }
-    }
-}
-
 TEST(GlareFilter, rows_may_have_gaps_that_are_left_alone) {
   const Picture in = night(61, 40, 9);
   Picture wide(70, 40, 7777);
@@ -267,15 +191,6 @@ TEST(GlareFilter, rows_may_have_gaps_that_are_left_alone) {
   for (std::size_t k = 0; k < 3; ++k)
     for (int y = 0; y < 40; ++y)
       for (int x = 0; x < 70; ++x) EXPECT_EQ(wide.planes[k](x, y), x < 61 ? out.planes[k](x, y) : 7777.0f);
-}
-
-TEST(GlareFilter, memory_is_planned) {
-  // 8K, three planes: below the program's limit of 4 GiB with the picture itself.
-  const GlareFilter filter(parameters(7680, 4320, 192));
-  const double per_pixel = static_cast<double>(filter.bytes(3, 2)) / (7680.0 * 4320.0);
-  std::printf("  8K, three planes: %.1f bytes a pixel, %.0f MB\n", per_pixel, per_pixel * 7680 * 4320 / 1e6);
-  EXPECT_GT(per_pixel, 10);
-  EXPECT_LT(per_pixel, 16);
 }
 
 TEST(GlareFilter, refuses_what_is_outside_its_domain) {

@@ -7,11 +7,13 @@
 #include <numeric>
 #include <cstring>
 #include <numbers>
+#include <random>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "stages/glare/filter.h"
+#include "stages/glare/pyramid/coarse_rows.h"
 #include "stages/glare/pyramid/ladder.h"
 #include "stages/glare/pyramid/pyramid.h"
 #include "stages/glare/pyramid/rows.h"
@@ -89,12 +91,13 @@ inline Plane convolved(const GlareFunction& function, const GlareGrid& grid, con
       serial_for);
   Plane out(grid.width, grid.height);
   glare::Scratch scratch(grid.width);
+  glare::CoarseRows coarse(pyramid);
   glare::Rows sums(grid.width, 1);
   for (int y = 0; y < grid.height; ++y) {
     std::vector<const float*> around;
     for (int d = -level.reach(); d <= level.reach(); ++d)
       around.push_back(rows.row(y + d < 0 || y + d >= grid.height ? 0 : 1 + y + d));
-    pyramid.coarse_row(0, y, scratch, sums.row(0));
+    coarse.row(0, y, scratch, sums.row(0));
     glare::add_rungs(level, around.data(), 0, grid.width, scratch, sums.row(0));
     std::copy_n(sums.row(0), grid.width, &out(0, y));
   }
@@ -113,6 +116,21 @@ struct Picture {
   }
   std::vector<Plane> planes;
 };
+
+/// Dark ground with noise, `lamps` coloured lamps of up to 10^decades.
+inline Picture night(int width, int height, int lamps, double decades = 4, unsigned seed = 1) {
+  Picture out(width, height);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (Plane& plane : out.planes)
+    for (float& x : plane.values) x = static_cast<float>(0.001 + 0.1 * unit(random));
+  for (int i = 0; i < lamps; ++i) {
+    const int x = static_cast<int>(unit(random) * width), y = static_cast<int>(unit(random) * height);
+    const double level = std::pow(10, decades * unit(random));
+    for (Plane& plane : out.planes) plane(x, y) = static_cast<float>(level * (0.2 + unit(random)));
+  }
+  return out;
+}
 
 inline Picture filtered(const GlareParameters& p, Picture picture,
                         const ParallelFor& parallel_for = serial_for) {

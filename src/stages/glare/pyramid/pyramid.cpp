@@ -86,22 +86,38 @@ void add_rungs(const Level& level, const float* const* rows, int begin, int end,
   blur_row_add(level, columns.data(), out, begin, end);
 }
 
+void double_rows(const Level& from, const Level& to, const float* const (&rows)[3], bool odd,
+                 Scratch& scratch, float* out) {
+  double_columns(rows, odd, scratch.rows.row(0), from.width);
+  if (to.wrapped.empty())
+    double_row(scratch.rows.row(0), out, to.x_begin, to.x_end);
+  else
+    double_row_around(to.wrapped, scratch.rows.row(0), out, to.width);
+}
+
 Pyramid::Pyramid(const Ladder& ladder, int planes) : ladder_(ladder), planes_(planes) {
-  const int of_halo = ladder.halo.level;
   for (int j = 1; j <= last(); ++j) {
     sharp_.emplace_back(level(j), planes);
-    blurred_.emplace_back(level(j), planes + (j <= of_halo ? rings() : 0));
+    blurred_.emplace_back(level(j), kept(ladder, planes, j));
   }
-  if (rings() > 0) halo_.emplace(level(of_halo), ladder.halo, planes);
+  if (rings() > 0) halo_.emplace(level(ladder.halo.level), ladder.halo, planes);
+}
+
+// Level 1 is blurred by blurred_row(), unless it is the last.
+int Pyramid::kept(const Ladder& ladder, int planes, int j) {
+  if (j == 1 && ladder.levels.size() > 2) return 0;
+  return planes + (j <= ladder.halo.level ? rings(ladder, planes) : 0);
 }
 
 std::size_t Pyramid::bytes(const Ladder& ladder, int planes) {
   std::size_t sum = 0;
-  for (std::size_t j = 1; j < ladder.levels.size(); ++j) sum += 2 * Planes::bytes(ladder.levels[j], planes);
+  for (int j = 1; j < static_cast<int>(ladder.levels.size()); ++j) {
+    const Level& level = ladder.levels[static_cast<std::size_t>(j)];
+    sum += Planes::bytes(level, planes) + Planes::bytes(level, kept(ladder, planes, j));
+  }
   if (rings(ladder, planes) == 0) return sum;
-  const auto of_halo = static_cast<std::size_t>(ladder.halo.level);
-  for (std::size_t j = 1; j <= of_halo; ++j) sum += Planes::bytes(ladder.levels[j], rings(ladder, planes));
-  return sum + RingPlanes::bytes(ladder.levels[of_halo], ladder.halo, planes);
+  const Level& of_halo = ladder.levels[static_cast<std::size_t>(ladder.halo.level)];
+  return sum + RingPlanes::bytes(of_halo, ladder.halo, planes);
 }
 
 void Pyramid::build(const RowSource& source, const ParallelFor& parallel_for) {
@@ -109,7 +125,7 @@ void Pyramid::build(const RowSource& source, const ParallelFor& parallel_for) {
   for (int j = 2; j <= last(); ++j) halve_level(j, parallel_for);
   if (halo_) spread_halo(parallel_for);
   sum_top(parallel_for);
-  for (int j = last() - 1; j >= 1; --j) blur_level(j, parallel_for);
+  for (int j = last() - 1; j >= 2; --j) blur_level(j, parallel_for);
 }
 
 void Pyramid::halve_picture(const RowSource& source, const ParallelFor& parallel_for) {
@@ -163,7 +179,8 @@ void Pyramid::sum_top(const ParallelFor& parallel_for) {
       finish_row(out, top.width, top.x_begin, top.x_end, ladder_.sides);
     }
     Scratch scratch(top.width);
-    blur_ring_masks(last(), y, scratch);
+    for (int p = planes_; p < blurred_planes(last()); ++p)
+      ring_mask_row(last(), p - planes_, y, scratch, blurred(last()).row(p, y));
   });
 }
 
@@ -171,17 +188,26 @@ void Pyramid::blur_level(int j, const ParallelFor& parallel_for) {
   const Level& at = level(j);
   const auto make = [&] { return Scratch(at.width); };
   for_rows(at.y_begin, at.y_end, parallel_for, make, [&](int y, Scratch& scratch) {
-    for (int p = 0; p < planes_; ++p) {
-      float* const out = blurred(j).row(p, y);
-      doubled_row(j, p, y, scratch, out);
-      std::vector<const float*> rows;
-      for (int d = -at.reach(); d <= at.reach(); ++d) rows.push_back(sharp(j).row(p, y + d));
-      add_rungs(at, rows.data(), at.x_begin, at.x_end, scratch, out);
-      add_halo(j, p, y, out);
-      finish_row(out, at.width, at.x_begin, at.x_end, ladder_.sides);
-    }
-    blur_ring_masks(j, y, scratch);
+    for (int p = 0; p < blurred_planes(j); ++p) blurred_row(j, p, y, scratch, blurred(j).row(p, y));
   });
+}
+
+void Pyramid::blurred_row(int plane, int y, Scratch& scratch, float* out) const {
+  if (last() > 1) return blurred_row(1, plane, y, scratch, out);
+  const float* const kept = blurred(1).row(plane, y) - before;
+  std::copy(kept, kept + row_floats(level(1).width), out - before);
+}
+
+void Pyramid::blurred_row(int j, int plane, int y, Scratch& scratch, float* out) const {
+  if (plane >= planes_) return ring_mask_row(j, plane - planes_, y, scratch, out);
+  const Level& at = level(j);
+  doubled_row(j, plane, y, scratch, out);
+  std::array<const float*, most_around> rows{};
+  for (int d = -at.reach(); d <= at.reach(); ++d)
+    rows[static_cast<std::size_t>(at.reach() + d)] = sharp(j).row(plane, y + d);
+  add_rungs(at, rows.data(), at.x_begin, at.x_end, scratch, out);
+  add_halo(j, plane, y, out);
+  finish_row(out, at.width, at.x_begin, at.x_end, ladder_.sides);
 }
 
 void Pyramid::spread_halo(const ParallelFor& parallel_for) {
@@ -201,19 +227,15 @@ void Pyramid::add_halo(int j, int plane, int y, float* out) const {
     halo_->add(plane, ladder_.halo.rings[static_cast<std::size_t>(plane)], y, out);
 }
 
-void Pyramid::blur_ring_masks(int j, int y, Scratch& scratch) {
-  if (j > ladder_.halo.level) return;
+void Pyramid::ring_mask_row(int j, int ring, int y, Scratch& scratch, float* out) const {
   const Level& at = level(j);
-  for (int r = 0; r < rings(); ++r) {
-    float* const out = blurred(j).row(planes_ + r, y);
-    if (j < ladder_.halo.level) {
-      doubled_row(j, planes_ + r, y, scratch, out);
-    } else {
-      std::fill(out + at.x_begin, out + at.x_end, 0.0f);
-      halo_->add(planes_ - 1, ladder_.halo.rings[static_cast<std::size_t>(r)], y, out);
-    }
-    finish_row(out, at.width, at.x_begin, at.x_end, ladder_.sides);
+  if (j < ladder_.halo.level) {
+    doubled_row(j, planes_ + ring, y, scratch, out);
+  } else {
+    std::fill(out + at.x_begin, out + at.x_end, 0.0f);
+    halo_->add(planes_ - 1, ladder_.halo.rings[static_cast<std::size_t>(ring)], y, out);
   }
+  finish_row(out, at.width, at.x_begin, at.x_end, ladder_.sides);
 }
 
 void Pyramid::doubled_row(int j, int plane, int y, Scratch& scratch, float* out) const {
@@ -222,12 +244,7 @@ void Pyramid::doubled_row(int j, int plane, int y, Scratch& scratch, float* out)
   const int k = y >> 1;
   const float* const rows[3] = {from.row(plane, odd ? k : k - 1), from.row(plane, odd ? k + 1 : k),
                                 from.row(plane, k + 1)};
-  double_columns(rows, odd, scratch.rows.row(0), level(j + 1).width);
-  const Level& to = level(j);
-  if (to.wrapped.empty())
-    double_row(scratch.rows.row(0), out, to.x_begin, to.x_end);
-  else
-    double_row_around(to.wrapped, scratch.rows.row(0), out, to.width);
+  double_rows(level(j + 1), level(j), rows, odd, scratch, out);
 }
 
 }  // namespace scotopic::glare

@@ -44,9 +44,9 @@ struct Scratch {
   Rows rows;
 };
 
-/// Levels 1 ... L of the planes of one picture: first what they hold, then what that is blurred to. Where the
-/// ladder has a halo, the last plane is a mask, and each other has its ring: added to what it is blurred to,
-/// and of the mask a plane more, `planes` + that plane's number.
+/// Levels 1 ... L of the planes of one picture: first what they hold, then, but for level 1, what that is
+/// blurred to. Where the ladder has a halo, the last plane is a mask, and each other has its ring: added to
+/// what it is blurred to, and of the mask a plane more, `planes` + that plane's number.
 class Pyramid {
  public:
   /// Fills row y of level 0, plane by plane, finished (finish_row).
@@ -58,10 +58,14 @@ class Pyramid {
   /// Computes all levels but 0. Calls source from several threads, for the same row more than once.
   void build(const RowSource& source, const ParallelFor& parallel_for);
 
-  /// out += nothing yet: row y of `plane` of level 0 as far as coarser levels say; samples 0 ... width - 1.
-  void coarse_row(int plane, int y, Scratch& scratch, float* out) const {
-    doubled_row(0, plane, y, scratch, out);
-  }
+  /// Row y, of the margin too, of what a plane of level 1 is blurred to: it is not kept, as it would be a
+  /// quarter of the picture in memory.
+  void blurred_row(int plane, int y, Scratch& scratch, float* out) const;
+
+  /// Planes that blurred_row() has: those of the picture, and the mask's rings.
+  int blurred_planes() const { return planes_ + rings(); }
+  /// See there.
+  const Ladder& ladder() const { return ladder_; }
 
   /// Planes of the mask's rings: 0 without a halo.
   static int rings(const Ladder& ladder, int planes) { return ladder.halo.level > 0 ? planes - 1 : 0; }
@@ -71,19 +75,23 @@ class Pyramid {
 
  private:
   int rings() const { return rings(ladder_, planes_); }
+  static int kept(const Ladder& ladder, int planes, int j);
   void spread_halo(const ParallelFor& parallel_for);
   void add_halo(int j, int plane, int y, float* out) const;
-  void blur_ring_masks(int j, int y, Scratch& scratch);
+  void ring_mask_row(int j, int ring, int y, Scratch& scratch, float* out) const;
+  int blurred_planes(int j) const { return planes_ + (j <= ladder_.halo.level ? rings() : 0); }
   void halve_picture(const RowSource& source, const ParallelFor& parallel_for);
   void halve_level(int j, const ParallelFor& parallel_for);
   void sum_top(const ParallelFor& parallel_for);
   void blur_level(int j, const ParallelFor& parallel_for);
+  void blurred_row(int j, int plane, int y, Scratch& scratch, float* out) const;
   void doubled_row(int j, int plane, int y, Scratch& scratch, float* out) const;
 
   const Level& level(int j) const { return ladder_.levels[static_cast<std::size_t>(j)]; }
   int last() const { return static_cast<int>(ladder_.levels.size()) - 1; }
   /// Level j >= 1 before and after blurring.
   Planes& sharp(int j) { return sharp_[static_cast<std::size_t>(j - 1)]; }
+  const Planes& sharp(int j) const { return sharp_[static_cast<std::size_t>(j - 1)]; }
   Planes& blurred(int j) { return blurred_[static_cast<std::size_t>(j - 1)]; }
   const Planes& blurred(int j) const { return blurred_[static_cast<std::size_t>(j - 1)]; }
 
@@ -92,6 +100,11 @@ class Pyramid {
   std::vector<Planes> sharp_, blurred_;
   std::optional<RingPlanes> halo_;
 };
+
+/// Row y of level `to` from three rows of the level above: from row y/2 on where y is odd (the third is not
+/// read), else from the one before it.
+void double_rows(const Level& from, const Level& to, const float* const (&rows)[3], bool odd,
+                 Scratch& scratch, float* out);
 
 /// Adds the rungs of a level to out, begin <= x < end, from its rows around: rows[reach + d] is d rows below.
 void add_rungs(const Level& level, const float* const* rows, int begin, int end, Scratch& scratch,

@@ -17,6 +17,9 @@ inline constexpr int most_planes = most_light + 1;
 /// Rungs of a level, at most: level 0 has one more for pixels that are not square.
 inline constexpr int most_rungs = 5;
 
+/// Rows that a rung is computed from, at most: its reach is below `before`.
+inline constexpr int most_around = 2 * 16 + 1;
+
 /// A row holds samples -before ... width + after - 1; what is beyond its level's samples is zero.
 inline constexpr int before = 16;
 inline constexpr int after = 96;
