@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <numeric>
@@ -37,6 +38,16 @@ TEST(GlareFilter, flat_pictures_keep_their_bits) {
       EXPECT_TRUE(same_bits(filtered(parameters(77, 53, 20, rule), picture), picture))
           << value << " with a NaN";
     }
+}
+
+TEST(GlareFilter, a_flat_plane_keeps_its_bits_beside_others) {
+  for (const float value : {-2.3f, 0.7f, 3e-7f}) {
+    Picture in = night(77, 53, 8);
+    in.planes[2] = Plane(77, 53, value);
+    const Picture out = filtered(parameters(77, 53, 20, GlareRule::all), in);
+    EXPECT_EQ(out.planes[2].values, in.planes[2].values) << value;
+    EXPECT_NE(out.planes[0].values, in.planes[0].values) << value;
+  }
 }
 
 TEST(GlareFilter, nothing_above_the_threshold_keeps_its_bits) {
@@ -78,6 +89,23 @@ TEST(GlareFilter, light_is_conserved_in_a_panorama) {
     const Picture in = night(width, width / 2, 8);
     const Picture out = filtered(p, in);
     for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(sum(out.planes[k]) / sum(in.planes[k]), 1, 3e-7) << width;
+  }
+}
+
+// At most: of a pixel whose picture goes on without end. Of a panorama, whose sides meet, its middle rows
+// come near.
+TEST(GlareFilter, no_pixel_loses_more_than_it_says) {
+  const GlareGrid grids[] = {test::square_grid(77, 53, 20),
+                             test::square_grid(300, 290, 3),
+                             test::square_grid(20, 20, 0.5),
+                             {256, 128, 256 / 360.0, 256 / 360.0, GlareSides::meet, 1}};
+  for (const GlareGrid& grid : grids) {
+    const Plane sums = test::convolved(GlareFunction({}), grid, Plane(grid.width, grid.height, 1));
+    const double most = GlareFilter({{}, grid, GlareRule::all, 1}).most_lost();
+    const double found = double{*std::max_element(sums.values.begin(), sums.values.end())};
+    std::printf("  %d x %d: most %.5f, found %.5f\n", grid.width, grid.height, most, found);
+    EXPECT_GE(most, found * (1 - 1e-6)) << grid.width;
+    EXPECT_LE(most, 1.2 * found) << grid.width;
   }
 }
 

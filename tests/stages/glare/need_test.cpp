@@ -91,6 +91,31 @@ TEST(GlareNeed, bounds_the_rise_of_every_pixel_on_200_scenes) {
 }
 TEST(GlareNeed, bounds_it_with_a_halo_too) { bounds_the_rise_of_every_pixel_on_200_scenes(0.033); }
 
+// The last column of blocks is one pixel wide: around it the neighbour's pixels are near.
+TEST(GlareNeed, bounds_the_rise_across_the_sides_of_a_panorama) {
+  GlareParameters p = parameters(161, 80, 161 / 360.0);
+  p.grid.sides = GlareSides::meet;
+  const GlareFilter filter(p);
+  int skipped = 0, called_for = 0;
+  for (double excess = 1e-6; excess < 1; excess *= 1.3) {
+    Picture in(161, 80, 0.9f);
+    for (Plane& plane : in.planes) {
+      plane(0, 40) = static_cast<float>(1 + excess);
+      for (int x = 144; x < 160; ++x) plane(x, 40) = 0;
+    }
+    Picture out = in;
+    const GlareNeed need = filter.need(out.view(), weights);
+    filter.apply(out.view());
+    (need.called_for ? called_for : skipped)++;
+    for (std::size_t i = 0; !need.called_for && i < in.planes[0].values.size(); ++i) {
+      const double before = luminance(in, i);
+      EXPECT_LE((luminance(out, i) - before) / (before + 0.001), need.veil) << excess << " at " << i % 161;
+    }
+  }
+  EXPECT_GT(skipped, 0);
+  EXPECT_GT(called_for, 0);
+}
+
 TEST(GlareNeed, says_how_many_pixels_and_why) {
   Picture picture(100, 80, 0.5f);
   const GlareFilter filter(parameters(100, 80, 20));

@@ -144,6 +144,17 @@ TEST(GlarePyramid, sides_of_a_panorama_meet) {
   for (int x = 0; x < 256; ++x) EXPECT_EQ(moved((x + 64) % 256, 70), out(x, 70)) << x;
 }
 
+// The function ends at 90 degrees; a level's Gaussian reaches a little further.
+TEST(GlarePyramid, nothing_is_seen_of_a_lamp_behind) {
+  const GlareFunction function({});
+  const GlareGrid grid{256, 128, 256 / 360.0, 256 / 360.0, GlareSides::meet, 1};
+  const Plane out = convolved(function, grid, point(256, 128, 64, 64));
+  for (int x = 64 + 80; x <= 64 + 176; ++x) {
+    const double veil = double{out(x, 64)} / double{out(64 + 53, 64)};
+    EXPECT_LT(veil, 1e-4) << x - 64 << " pixels";
+  }
+}
+
 // Against the function integrated over pixels, to 75 degrees (it ends at 90),
 // from every phase of the wider samples.
 TEST(GlarePyramid, sides_of_a_panorama_meet_whatever_its_width) {
