@@ -9,6 +9,9 @@ namespace scotopic::glare {
 namespace {
 
 constexpr int band = 128;  // rows of a task
+// Rows that are made of one plane before the next is looked at: the rows around them stay in the processor's
+// cache, where those of all planes of a wide picture do not.
+constexpr int block = 4;
 
 int borders_of(int height) { return (height + band - 1) / band - 1; }
 
@@ -17,8 +20,8 @@ std::ptrdiff_t rows_kept(const Ladder& ladder, int planes) {
   return static_cast<std::ptrdiff_t>(borders_of(level.height)) * 2 * level.reach() * planes + 1;
 }
 
-/// The power of two above `reach` rows on both sides.
-int ring_size(int reach) { return reach < 8 ? 16 : 32; }
+/// The power of two that holds a block and `reach` rows on both sides.
+int ring_size(int reach) { return 2 * reach + block <= 16 ? 16 : 32; }
 
 using RowPointers = std::array<float*, most_planes>;
 
@@ -60,14 +63,16 @@ struct Run::Window {
         steps(static_cast<std::size_t>(run.steps())),
         ring(run.level().width, static_cast<std::ptrdiff_t>(size) * run.planes()),
         ring_lit(static_cast<std::size_t>(size) * steps),
-        lit(steps),
-        blurred(run.level().width, run.planes() + run.rings()),
+        lit(block, std::vector<std::uint8_t>(steps)),
+        blurred(run.level().width, block * (run.planes() + run.rings())),
         coarse(run.pyramid_),
         scratch(run.level().width) {}
   float* row(int plane, int y) { return ring.row(static_cast<std::ptrdiff_t>(plane) * size + y % size); }
   const float* row(int plane, int y) const {
     return ring.row(static_cast<std::ptrdiff_t>(plane) * size + y % size);
   }
+  float* blurred_row(int plane, int y) { return blurred.row(plane * block + (y - begin) % block); }
+  std::vector<std::uint8_t>& lit_around(int y) { return lit[static_cast<std::size_t>((y - begin) % block)]; }
   std::uint8_t* row_lit(int y) { return ring_lit.data() + static_cast<std::size_t>(y % size) * steps; }
   const std::uint8_t* row_lit(int y) const {
     return ring_lit.data() + static_cast<std::size_t>(y % size) * steps;
@@ -79,8 +84,8 @@ struct Run::Window {
   std::size_t steps;
   Rows ring;
   std::vector<std::uint8_t> ring_lit;
-  std::vector<std::uint8_t> lit;  ///< where the row in hand has a lit sample within reach
-  Rows blurred;
+  std::vector<std::vector<std::uint8_t>> lit;  ///< where a row of the block has a lit sample within reach
+  Rows blurred;                                ///< of each plane a block
   CoarseRows coarse;
   Scratch scratch;
 };
@@ -97,8 +102,8 @@ Run::Run(const Plan& plan, const GlarePicture& picture, const Excess& excess)
 std::size_t Run::bytes(const Plan& plan, int light, int threads) {
   const int planes = light + 1, reach = plan.ladder.levels.front().reach();
   const auto own = static_cast<std::size_t>(threads) *
-                   static_cast<std::size_t>((ring_size(reach) + 1) * planes +
-                                            Pyramid::rings(plan.ladder, planes) + most_rungs + 1);
+                   static_cast<std::size_t>((ring_size(reach) + block) * planes +
+                                            block * Pyramid::rings(plan.ladder, planes) + most_rungs + 1);
   const auto rows = own + static_cast<std::size_t>(rows_kept(plan.ladder, planes)) + most_rungs + 1;
   return Pyramid::bytes(plan.ladder, planes) +
          static_cast<std::size_t>(threads) * CoarseRows::bytes(plan.ladder, planes) +
@@ -155,7 +160,7 @@ const std::uint8_t* Run::lit_at(const Window& window, int y) const {
 }
 
 void Run::see_lit(Window& window, int y) const {
-  std::vector<std::uint8_t>& lit = window.lit;
+  std::vector<std::uint8_t>& lit = window.lit_around(y);
   std::fill(lit.begin(), lit.end(), std::uint8_t{0});
   for (int j = std::max(0, y - level().reach()); j <= std::min(y + level().reach(), level().height - 1);
        ++j) {
@@ -190,16 +195,19 @@ void Run::advance(Window& window, int to) {
   }
 }
 
-void Run::blur_row(Window& window, int plane, int y, bool everywhere) const {
+void Run::blur_row(Window& window, int plane, int y) const {
+  if (plane >= planes()) return window.coarse.row(plane, y, window.scratch, window.blurred_row(plane, y));
+  if (plane == mask() && all_finite_) return blur_mask_of_ones(window, y);
+  const std::vector<std::uint8_t>& lit = window.lit_around(y);
   const int reach = level().reach();
   std::array<const float*, 64> rows{};
   for (int d = -reach; d <= reach; ++d)
     rows[static_cast<std::size_t>(reach + d)] = row_at(window, plane, y + d);
-  float* const out = window.blurred.row(plane);
+  float* const out = window.blurred_row(plane, y);
   window.coarse.row(plane, y, window.scratch, out);
-  for (std::size_t i = 0; i < window.lit.size();) {
+  for (std::size_t i = 0; i < lit.size();) {
     const std::size_t begin = i;
-    while (i < window.lit.size() && (everywhere || window.lit[i] != 0)) ++i;
+    while (i < lit.size() && (plane == mask() || lit[i] != 0)) ++i;
     if (i == begin) {
       ++i;
       continue;
@@ -210,30 +218,30 @@ void Run::blur_row(Window& window, int plane, int y, bool everywhere) const {
 }
 
 void Run::blur_mask_of_ones(Window& window, int y) const {
-  float* const out = window.blurred.row(mask());
+  float* const out = window.blurred_row(mask(), y);
   window.coarse.row(mask(), y, window.scratch, out);
   for (std::size_t r = 0; r < level().rungs.size(); ++r)
     add_scaled(ones_.row(static_cast<std::ptrdiff_t>(r)),
                column_of_ones(level().rungs[r].y, y, level().height), out, level().width);
 }
 
+void Run::scatter(Window& window, int y) const {
+  std::array<const float*, most_planes> own{};
+  std::array<const float*, most_planes + most_light> come{};
+  for (int p = 0; p < planes(); ++p) own[static_cast<std::size_t>(p)] = window.row(p, y);
+  for (int p = 0; p < planes() + rings(); ++p) come[static_cast<std::size_t>(p)] = window.blurred_row(p, y);
+  scatter_row(excess_, row_of(picture_, y), own.data(), come.data(), level().width);
+}
+
 void Run::scatter_band(int begin, int end) {
   Window window(*this, begin, end);
-  for (int y = begin; y < end; ++y) {
-    advance(window, y + level().reach());
-    see_lit(window, y);
-    for (int p = 0; p < excess_.planes; ++p) blur_row(window, p, y, false);
-    if (all_finite_)
-      blur_mask_of_ones(window, y);
-    else
-      blur_row(window, mask(), y, true);
-    for (int r = planes(); r < planes() + rings(); ++r)
-      window.coarse.row(r, y, window.scratch, window.blurred.row(r));
-    std::array<const float*, most_planes> own{};
-    std::array<const float*, most_planes + most_light> come{};
-    for (int p = 0; p < planes(); ++p) own[static_cast<std::size_t>(p)] = window.row(p, y);
-    for (int p = 0; p < planes() + rings(); ++p) come[static_cast<std::size_t>(p)] = window.blurred.row(p);
-    scatter_row(excess_, row_of(picture_, y), own.data(), come.data(), level().width);
+  for (int first = begin; first < end; first += block) {
+    const int last = std::min(first + block, end) - 1;
+    advance(window, last + level().reach());
+    for (int y = first; y <= last; ++y) see_lit(window, y);
+    for (int p = 0; p < planes() + rings(); ++p)
+      for (int y = first; y <= last; ++y) blur_row(window, p, y);
+    for (int y = first; y <= last; ++y) scatter(window, y);
   }
 }
 

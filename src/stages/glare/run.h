@@ -32,8 +32,9 @@ class Run {
   const std::uint8_t* lit_at(const Window& window, int y) const;
   void see_lit(Window& window, int y) const;
   void advance(Window& window, int to);
-  void blur_row(Window& window, int plane, int y, bool everywhere) const;
+  void blur_row(Window& window, int plane, int y) const;
   void blur_mask_of_ones(Window& window, int y) const;
+  void scatter(Window& window, int y) const;
   void scatter_band(int begin, int end);
 
   /// How far into sides_ row y is that was kept for the window; in rows of the picture.

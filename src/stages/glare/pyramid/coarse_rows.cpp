@@ -1,26 +1,29 @@
 #include "stages/glare/pyramid/coarse_rows.h"
 
+#include <algorithm>
+
 namespace scotopic::glare {
 
 CoarseRows::CoarseRows(const Pyramid& pyramid)
-    : pyramid_(pyramid), rows_(pyramid.ladder().levels[1].width, last_rows * pyramid.blurred_planes()) {}
+    : pyramid_(pyramid),
+      rows_(pyramid.ladder().levels[1].width, last_rows * pyramid.blurred_planes()),
+      next_(static_cast<std::size_t>(pyramid.blurred_planes()), pyramid.ladder().levels[1].y_begin) {}
 
 std::size_t CoarseRows::bytes(const Ladder& ladder, int planes) {
   const auto rows = static_cast<std::size_t>(last_rows * (planes + Pyramid::rings(ladder, planes)));
   return rows * static_cast<std::size_t>(row_floats(ladder.levels[1].width)) * sizeof(float);
 }
 
-void CoarseRows::advance(int to, Scratch& scratch) {
-  for (; next_ <= to; ++next_)
-    for (int p = 0; p < pyramid_.blurred_planes(); ++p) pyramid_.blurred_row(p, next_, scratch, at(p, next_));
+void CoarseRows::advance(int plane, int from, int to, Scratch& scratch) {
+  int& next = next_[static_cast<std::size_t>(plane)];
+  for (next = std::max(next, from); next <= to; ++next)
+    pyramid_.blurred_row(plane, next, scratch, at(plane, next));
 }
 
 void CoarseRows::row(int plane, int y, Scratch& scratch, float* out) {
   const bool odd = (y & 1) != 0;
   const int k = y >> 1, first = odd ? k : k - 1;
-  if (!begun_) next_ = first;
-  begun_ = true;
-  advance(k + 1, scratch);
+  advance(plane, first, k + 1, scratch);
   const float* const rows[3] = {at(plane, first), at(plane, first + 1), at(plane, k + 1)};
   const Ladder& ladder = pyramid_.ladder();
   double_rows(ladder.levels[1], ladder.levels[0], rows, odd, scratch, out);

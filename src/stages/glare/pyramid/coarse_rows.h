@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "stages/glare/pyramid/pyramid.h"
 
@@ -13,7 +14,7 @@ class CoarseRows {
  public:
   explicit CoarseRows(const Pyramid& pyramid);
 
-  /// Row y of `plane` of level 0, samples 0 ... width - 1: y no less than in any call before.
+  /// Row y of `plane` of level 0, samples 0 ... width - 1: y no less than in any call before for that plane.
   void row(int plane, int y, Scratch& scratch, float* out);
 
   /// What the constructor allocates.
@@ -21,13 +22,12 @@ class CoarseRows {
 
  private:
   float* at(int plane, int y) { return rows_.row(plane * last_rows + (y & (last_rows - 1))); }
-  void advance(int to, Scratch& scratch);
+  void advance(int plane, int from, int to, Scratch& scratch);
 
   static constexpr int last_rows = 4;  ///< of each plane: doubling looks at three
   const Pyramid& pyramid_;
   Rows rows_;
-  bool begun_ = false;
-  int next_ = 0;  ///< the first row of level 1 not yet here
+  std::vector<int> next_;  ///< of each plane the first row of level 1 not yet here
 };
 
 }  // namespace scotopic::glare
