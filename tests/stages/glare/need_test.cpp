@@ -120,6 +120,7 @@ TEST(GlareNeed, says_how_many_pixels_and_why) {
   Picture picture(100, 80, 0.5f);
   const GlareFilter filter(parameters(100, 80, 20));
   EXPECT_FALSE(filter.need(picture.view(), weights).called_for);
+  for (int k = 0; k < 3; ++k) picture.planes[static_cast<std::size_t>(k)](20 + k, 20) = 1;  // at, not above
   EXPECT_EQ(filter.need(picture.view(), weights).reason, "no pixel is above 1");
   for (int x = 10; x < 17; ++x) picture.planes[2](x, 40) = 1000;
   picture.planes[0](3, 3) = std::numeric_limits<float>::infinity();
