@@ -60,8 +60,12 @@ def said_by_program(rgb, parameters):
         program.write(f"{folder}/in.exr", rgb)
         done = program.run("apply", f"{folder}/in.exr", "-o", f"{folder}/out.exr", "-q", *program.options(parameters))
         said = re.sub(r"^scotopic: |\S*in\.exr: | \(nothing written\)", "", done.stderr.strip().splitlines()[-1])
-        # A build folder has a link to the config, which the module finds where it is.
-        return re.sub(r"\S*/config\.ocio", lambda path: os.path.realpath(path[0]), said)
+        return without_links(said)
+
+
+def without_links(text):
+    """Program and module may find the shipped config by different links."""
+    return re.sub(r"\S*/config\.ocio", lambda path: os.path.realpath(path[0]), text)
 
 
 class Words(unittest.TestCase):
@@ -70,7 +74,7 @@ class Words(unittest.TestCase):
         for parameters, kind, text in MISTAKES:
             with self.subTest(parameters=parameters), self.assertRaises(kind) as caught:
                 scotopic.apply(rgb, **parameters)
-            said = str(caught.exception).removeprefix("rgb: ")
+            said = without_links(str(caught.exception).removeprefix("rgb: "))
             self.assertEqual(said, text or said_by_program(rgb, parameters), parameters)
 
     def test_an_array_that_is_no_image_is_refused(self):

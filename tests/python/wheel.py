@@ -50,6 +50,11 @@ def check_installed(wheel, source, work, program):
     target = work / "installed"
     shutil.rmtree(target, ignore_errors=True)
     pip("install", "--no-index", "--no-deps", "--target", str(target), str(wheel))
+    # Looks and views that ship are package scotopic's: here the sources', where the module looks for them.
+    share = target / "share/scotopic"
+    share.mkdir(parents=True)
+    for folder in ("ocio_config", "luts"):
+        (share / folder).symlink_to(source / folder)
     environment = dict(os.environ, PYTHONPATH=str(target), SCOTOPIC=program)
     where = subprocess.run([sys.executable, "-c", "import scotopic; print(scotopic.__file__)"], env=environment,
                            check=True, capture_output=True, text=True, cwd=work).stdout
