@@ -173,6 +173,12 @@ bool are_meant(const Sample& sample) {
 
 }  // namespace
 
+std::vector<double> alpha_in(const std::string& file) {
+  std::vector<double> out;
+  for (const auto& pixel : read(file).pixels) out.push_back(pixel[3]);
+  return out;
+}
+
 MeaningInXyz::MeaningInXyz(const Meaning& meaning) : meaning_(meaning) {
   if (meaning_.profile.empty()) {
     matrix_ = matrix_of(meaning_.primaries);

@@ -64,6 +64,9 @@ struct Tally {
   std::string worst_at;
 };
 
+/// Of each stored pixel; 1 where there is none.
+std::vector<double> alpha_in(const std::string& file);
+
 /// Runs the file through the operator by daylight, to CIE XYZ, and compares it with what OpenImageIO's pixels
 /// mean.
 void judge(const Sample& sample, Tally& tally);

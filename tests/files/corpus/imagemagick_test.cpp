@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -61,6 +62,7 @@ struct Source {
   std::string file;
   Words words;                ///< that read it
   std::vector<float> values;  ///< R, G, B of each pixel
+  std::vector<double> alpha;  ///< of each, where there is any
 };
 
 Source make_source(bool colour, bool alpha) {
@@ -73,7 +75,7 @@ Source make_source(bool colour, bool alpha) {
       if (!colour) codes[1] = codes[2] = codes[0];
       const auto put = [&](int code) { bytes += std::string(2, static_cast<char>(code)); };  // 257 n
       for (std::size_t c = 0; c < (colour ? 3u : 1u); ++c) put(codes[c]);
-      if (alpha) put(codes[3]);
+      if (alpha) put(codes[3]), out.alpha.push_back(codes[3] / 255.0);
       for (std::size_t c = 0; c < 3; ++c) out.values.push_back(static_cast<float>(codes[c]) / 255.0f);
     }
   // ImageMagick's raw formats: gray, graya do not exist apart from alpha in all releases, so grey is of three
@@ -141,6 +143,16 @@ struct Asked {
   }
 };
 
+/// Whether alpha was written as it was given: ImageMagick 7 multiplies associated planes by it again and
+/// again, itself included.
+bool keeps_alpha(const std::string& file, const Source& source) {
+  const std::vector<double> got = test::alpha_in(file);
+  if (got.size() != source.alpha.size()) return false;
+  for (std::size_t i = 0; i < got.size(); ++i)
+    if (std::abs(got[i] - source.alpha[i]) > 0.003) return false;
+  return true;
+}
+
 /// Writes it and judges it; `lossless`: the values are known.
 void make(const Asked& asked, const std::string& target, const std::string& file,
           Meaning (*meaning)(const Asked&, const std::string&), bool lossless, Tally& tally) {
@@ -153,7 +165,7 @@ void make(const Asked& asked, const std::string& target, const std::string& file
   }
   words.insert(words.end(), asked.words.begin(), asked.words.end());
   words.push_back(target);
-  if (!convert(words)) return;
+  if (!convert(words) || (asked.alpha && !keeps_alpha(file, source))) return;
   Sample sample{file, target.substr(0, target.find(':')) + " " + asked.text(), meaning(asked, file),
                 asked.orientation};
   if (lossless && !asked.alpha) {
