@@ -60,6 +60,7 @@ struct Run::Window {
         end(band_end),
         next(band_begin),
         size(ring_size(run.level().reach())),
+        of_ones(run.all_finite_ ? run.mask() : -1),
         steps(static_cast<std::size_t>(run.steps())),
         ring(run.level().width, static_cast<std::ptrdiff_t>(size) * run.planes()),
         ring_lit(static_cast<std::size_t>(size) * steps),
@@ -67,9 +68,10 @@ struct Run::Window {
         blurred(run.level().width, block * (run.planes() + run.rings())),
         coarse(run.pyramid_),
         scratch(run.level().width) {}
-  float* row(int plane, int y) { return ring.row(static_cast<std::ptrdiff_t>(plane) * size + y % size); }
-  const float* row(int plane, int y) const {
-    return ring.row(static_cast<std::ptrdiff_t>(plane) * size + y % size);
+  float* row(int plane, int y) { return ring.row(place(plane, y)); }
+  const float* row(int plane, int y) const { return ring.row(place(plane, y)); }
+  std::ptrdiff_t place(int plane, int y) const {
+    return static_cast<std::ptrdiff_t>(plane) * size + (plane == of_ones ? 0 : y % size);
   }
   float* blurred_row(int plane, int y) { return blurred.row(plane * block + (y - begin) % block); }
   std::vector<std::uint8_t>& lit_around(int y) { return lit[static_cast<std::size_t>((y - begin) % block)]; }
@@ -81,6 +83,7 @@ struct Run::Window {
   int begin, end;
   int next;  ///< the first row not yet in the ring
   int size;
+  int of_ones;  ///< the plane whose rows are all alike: a mask of ones
   std::size_t steps;
   Rows ring;
   std::vector<std::uint8_t> ring_lit;
@@ -114,7 +117,7 @@ void Run::apply(const ParallelFor& parallel_for) {
   const auto source = [this](int y, float* const* rows) {
     thread_local std::vector<std::uint8_t> lit;
     lit.resize(static_cast<std::size_t>(steps()));
-    excess_row_at(y, rows, lit.data());
+    return excess_row_at(y, rows, lit.data());
   };
   pyramid_.build(source, parallel_for);
   keep_sides(parallel_for);
@@ -122,9 +125,11 @@ void Run::apply(const ParallelFor& parallel_for) {
   for_bands(level().height, band, parallel_for, [&](int, int begin, int end) { scatter_band(begin, end); });
 }
 
-void Run::excess_row_at(int y, float* const* out, std::uint8_t* lit) {
-  if (!excess_row(excess_, row_of(picture_, y), out, lit, level().width)) all_finite_ = false;
+bool Run::excess_row_at(int y, float* const* out, std::uint8_t* lit) {
+  const bool finite = excess_row(excess_, row_of(picture_, y), out, lit, level().width);
+  if (!finite) all_finite_ = false;
   for (int p = 0; p < planes(); ++p) finish_row(out[p], level().width, 0, level().width, plan_.ladder.sides);
+  return finite;
 }
 
 // Border b is above row (b + 1) band; kept are `reach` rows on each side of it.

@@ -27,7 +27,7 @@ class Run {
   struct Window;
   void keep_sides(const ParallelFor& parallel_for);
   void blur_ones();
-  void excess_row_at(int y, float* const* out, std::uint8_t* lit);
+  bool excess_row_at(int y, float* const* out, std::uint8_t* lit);
   const float* row_at(const Window& window, int plane, int y) const;
   const std::uint8_t* lit_at(const Window& window, int y) const;
   void see_lit(Window& window, int y) const;

@@ -87,6 +87,7 @@ inline Plane convolved(const GlareFunction& function, const GlareGrid& grid, con
   pyramid.build(
       [&](int y, float* const* out) {
         std::copy_n(rows.row(1 + y) - glare::before, rows.stride(), out[0] - glare::before);
+        return false;
       },
       serial_for);
   Plane out(grid.width, grid.height);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 
 namespace scotopic::glare {
 namespace {
@@ -26,6 +27,7 @@ struct LastRows {
   const float* zeros() { return rows.row(0); }
   int planes;
   Rows rows;
+  std::array<bool, 8> of_ones{};
   int next = -1;  ///< the first row not yet here
 };
 
@@ -33,9 +35,17 @@ void fill(LastRows& ring, const Level& picture, const Pyramid::RowSource& source
   for (int y = std::max({from, ring.next, 0}); y <= std::min(to, picture.height - 1); ++y) {
     std::array<float*, most_planes> rows{};
     for (int p = 0; p < ring.planes; ++p) rows[static_cast<std::size_t>(p)] = ring.row(p, y);
-    source(y, rows.data());
+    ring.of_ones[static_cast<std::size_t>(y & 7)] = source(y, rows.data());
     ring.next = y + 1;
   }
+}
+
+/// Whether rows first ... first + 4 are of the picture, and their mask is 1.
+bool all_of_ones(const LastRows& ring, const Level& picture, int first) {
+  if (first < 0 || first + 4 >= picture.height) return false;
+  for (int y = first; y <= first + 4; ++y)
+    if (!ring.of_ones[static_cast<std::size_t>(y & 7)]) return false;
+  return true;
 }
 
 void halve_along(const Level& from, const float* in, const Level& to, float* out) {
@@ -95,7 +105,11 @@ void double_rows(const Level& from, const Level& to, const float* const (&rows)[
     double_row_around(to.wrapped, scratch.rows.row(0), out, to.width);
 }
 
-Pyramid::Pyramid(const Ladder& ladder, int planes) : ladder_(ladder), planes_(planes) {
+Pyramid::Pyramid(const Ladder& ladder, int planes)
+    : ladder_(ladder),
+      planes_(planes),
+      ones_(level(1).width, 3),
+      of_ones_(static_cast<std::size_t>(level(1).y_end - level(1).y_begin)) {
   for (int j = 1; j <= last(); ++j) {
     sharp_.emplace_back(level(j), planes);
     blurred_.emplace_back(level(j), kept(ladder, planes, j));
@@ -110,7 +124,7 @@ int Pyramid::kept(const Ladder& ladder, int planes, int j) {
 }
 
 std::size_t Pyramid::bytes(const Ladder& ladder, int planes) {
-  std::size_t sum = 0;
+  std::size_t sum = 3 * static_cast<std::size_t>(row_floats(ladder.levels[1].width)) * sizeof(float);
   for (int j = 1; j < static_cast<int>(ladder.levels.size()); ++j) {
     const Level& level = ladder.levels[static_cast<std::size_t>(j)];
     sum += Planes::bytes(level, planes) + Planes::bytes(level, kept(ladder, planes, j));
@@ -121,11 +135,37 @@ std::size_t Pyramid::bytes(const Ladder& ladder, int planes) {
 }
 
 void Pyramid::build(const RowSource& source, const ParallelFor& parallel_for) {
+  make_ones();
   halve_picture(source, parallel_for);
   for (int j = 2; j <= last(); ++j) halve_level(j, parallel_for);
   if (halo_) spread_halo(parallel_for);
   sum_top(parallel_for);
   for (int j = last() - 1; j >= 2; --j) blur_level(j, parallel_for);
+}
+
+// Where nothing is not finite, rows of the mask are all alike but for the first and last.
+void Pyramid::make_ones() {
+  const Level &from = level(0), &to = level(1);
+  Rows row(from.width, 2);
+  Scratch scratch(from.width);
+  std::fill_n(row.row(1), from.width, 1.0f);
+  finish_row(row.row(1), from.width, 0, from.width, ladder_.sides);
+  halve_columns({row.row(1), row.row(1), row.row(1), row.row(1), row.row(1)}, scratch.rows.row(0),
+                from.width);
+  halve_along(from, scratch.rows.row(0), to, ones_.row(1));
+  finish_row(ones_.row(1), to.width, to.x_begin, to.x_end, ladder_.sides);
+  if (last() == 1) return;
+  std::array<const float*, most_around> rows{};
+  rows.fill(ones_.row(1));
+  std::fill(ones_.row(2) + to.x_begin, ones_.row(2) + to.x_end, 0.0f);
+  add_rungs(to, rows.data(), to.x_begin, to.x_end, scratch, ones_.row(2));
+}
+
+bool Pyramid::of_ones(int plane, int y, int reach) const {
+  const Level& at = level(1);
+  if (plane != planes_ - 1 || y - reach < at.y_begin || y + reach >= at.y_end) return false;
+  const auto first = of_ones_.begin() + (y - reach - at.y_begin);
+  return std::all_of(first, first + 2 * reach + 1, [](std::uint8_t ones) { return ones != 0; });
 }
 
 void Pyramid::halve_picture(const RowSource& source, const ParallelFor& parallel_for) {
@@ -137,7 +177,9 @@ void Pyramid::halve_picture(const RowSource& source, const ParallelFor& parallel
   const auto make = [&] { return Own{LastRows(from, planes_), Scratch(from.width)}; };
   for_rows(to.y_begin, to.y_end, parallel_for, make, [&](int y, Own& own) {
     fill(own.ring, from, source, 2 * y - 2, 2 * y + 2);
-    for (int p = 0; p < planes_; ++p) {
+    const bool ones = all_of_ones(own.ring, from, 2 * y - 2);
+    of_ones_[static_cast<std::size_t>(y - to.y_begin)] = ones;
+    for (int p = 0; p < planes_ - ones; ++p) {
       const float* rows[5];
       for (int i = 0; i < 5; ++i) {
         const int at = 2 * y - 2 + i;
@@ -156,7 +198,7 @@ void Pyramid::halve_level(int j, const ParallelFor& parallel_for) {
   for_rows(to.y_begin, to.y_end, parallel_for, make, [&](int y, Scratch& scratch) {
     for (int p = 0; p < planes_; ++p) {
       const float* rows[5];
-      for (int i = 0; i < 5; ++i) rows[i] = sharp(j - 1).row(p, 2 * y - 2 + i);
+      for (int i = 0; i < 5; ++i) rows[i] = sharp_row(j - 1, p, 2 * y - 2 + i);
       halve_columns(rows, scratch.rows.row(0), from.width);
       halve_along(from, scratch.rows.row(0), to, sharp(j).row(p, y));
       finish_row(sharp(j).row(p, y), to.width, to.x_begin, to.x_end, ladder_.sides);
@@ -171,7 +213,7 @@ void Pyramid::sum_top(const ParallelFor& parallel_for) {
     for (int p = 0; p < planes_; ++p) {
       std::vector<double> sums(static_cast<std::size_t>(top.x_end - top.x_begin));
       for (int from = top.y_begin; from < top.y_end; ++from)
-        add_top_row(ladder_, sharp(last()).row(p, from), y - from, sums);
+        add_top_row(ladder_, sharp_row(last(), p, from), y - from, sums);
       float* const out = blurred(last()).row(p, y);
       std::transform(sums.begin(), sums.end(), out + top.x_begin,
                      [](double x) { return static_cast<float>(x); });
@@ -198,14 +240,23 @@ void Pyramid::blurred_row(int plane, int y, Scratch& scratch, float* out) const 
   std::copy(kept, kept + row_floats(level(1).width), out - before);
 }
 
+void Pyramid::add_sharp(int j, int plane, int y, Scratch& scratch, float* out) const {
+  const Level& at = level(j);
+  std::array<const float*, most_around> rows{};
+  for (int d = -at.reach(); d <= at.reach(); ++d)
+    rows[static_cast<std::size_t>(at.reach() + d)] = sharp_row(j, plane, y + d);
+  add_rungs(at, rows.data(), at.x_begin, at.x_end, scratch, out);
+}
+
 void Pyramid::blurred_row(int j, int plane, int y, Scratch& scratch, float* out) const {
   if (plane >= planes_) return ring_mask_row(j, plane - planes_, y, scratch, out);
   const Level& at = level(j);
   doubled_row(j, plane, y, scratch, out);
-  std::array<const float*, most_around> rows{};
-  for (int d = -at.reach(); d <= at.reach(); ++d)
-    rows[static_cast<std::size_t>(at.reach() + d)] = sharp(j).row(plane, y + d);
-  add_rungs(at, rows.data(), at.x_begin, at.x_end, scratch, out);
+  if (j == 1 && of_ones(plane, y, at.reach()))
+    std::transform(ones_.row(2) + at.x_begin, ones_.row(2) + at.x_end, out + at.x_begin, out + at.x_begin,
+                   std::plus<>());
+  else
+    add_sharp(j, plane, y, scratch, out);
   add_halo(j, plane, y, out);
   finish_row(out, at.width, at.x_begin, at.x_end, ladder_.sides);
 }
@@ -216,7 +267,7 @@ void Pyramid::spread_halo(const ParallelFor& parallel_for) {
   for_rows(halo_->y_begin(), halo_->y_end(), parallel_for, make, [&](int y, std::vector<const float*>& rows) {
     for (int p = 0; p < planes_; ++p) {
       for (int d = -reach; d <= reach; ++d)
-        rows[static_cast<std::size_t>(reach + d)] = sharp(j).row(p, y + d);
+        rows[static_cast<std::size_t>(reach + d)] = sharp_row(j, p, y + d);
       halo_->take(p, y, rows.data(), ladder_.sides);
     }
   });

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -49,8 +50,9 @@ struct Scratch {
 /// what it is blurred to, and of the mask a plane more, `planes` + that plane's number.
 class Pyramid {
  public:
-  /// Fills row y of level 0, plane by plane, finished (finish_row).
-  using RowSource = std::function<void(int y, float* const* rows)>;
+  /// Fills row y of level 0, plane by plane, finished (finish_row). Whether the last plane is a mask that is
+  /// 1 all along the row.
+  using RowSource = std::function<bool(int y, float* const* rows)>;
 
   /// Keeps a reference to the ladder.
   Pyramid(const Ladder& ladder, int planes);
@@ -76,6 +78,7 @@ class Pyramid {
  private:
   int rings() const { return rings(ladder_, planes_); }
   static int kept(const Ladder& ladder, int planes, int j);
+  void make_ones();
   void spread_halo(const ParallelFor& parallel_for);
   void add_halo(int j, int plane, int y, float* out) const;
   void ring_mask_row(int j, int ring, int y, Scratch& scratch, float* out) const;
@@ -84,6 +87,7 @@ class Pyramid {
   void halve_level(int j, const ParallelFor& parallel_for);
   void sum_top(const ParallelFor& parallel_for);
   void blur_level(int j, const ParallelFor& parallel_for);
+  void add_sharp(int j, int plane, int y, Scratch& scratch, float* out) const;
   void blurred_row(int j, int plane, int y, Scratch& scratch, float* out) const;
   void doubled_row(int j, int plane, int y, Scratch& scratch, float* out) const;
 
@@ -92,6 +96,10 @@ class Pyramid {
   /// Level j >= 1 before and after blurring.
   Planes& sharp(int j) { return sharp_[static_cast<std::size_t>(j - 1)]; }
   const Planes& sharp(int j) const { return sharp_[static_cast<std::size_t>(j - 1)]; }
+  const float* sharp_row(int j, int plane, int y) const {
+    return j == 1 && of_ones(plane, y, 0) ? ones_.row(1) : sharp(j).row(plane, y);
+  }
+  bool of_ones(int plane, int y, int reach) const;
   Planes& blurred(int j) { return blurred_[static_cast<std::size_t>(j - 1)]; }
   const Planes& blurred(int j) const { return blurred_[static_cast<std::size_t>(j - 1)]; }
 
@@ -99,6 +107,8 @@ class Pyramid {
   int planes_;
   std::vector<Planes> sharp_, blurred_;
   std::optional<RingPlanes> halo_;
+  Rows ones_;                          ///< of level 1: 1 a row of a mask of ones, 2 what it is blurred to
+  std::vector<std::uint8_t> of_ones_;  ///< of each row of level 1, whether ones_ stands for its mask
 };
 
 /// Row y of level `to` from three rows of the level above: from row y/2 on where y is odd (the third is not
