@@ -74,17 +74,6 @@ void add_top_row(const Ladder& ladder, const float* from, int dy, std::vector<do
 
 }  // namespace
 
-Planes::Planes(const Level& level, int planes)
-    : begin_(level.y_begin),
-      end_(level.y_end),
-      rows_(level.width, 1 + static_cast<std::ptrdiff_t>(planes) * (level.y_end - level.y_begin)) {}
-
-std::size_t Planes::bytes(const Level& level, int planes) {
-  const auto rows =
-      1 + static_cast<std::size_t>(planes) * static_cast<std::size_t>(level.y_end - level.y_begin);
-  return rows * static_cast<std::size_t>(row_floats(level.width)) * sizeof(float);
-}
-
 void add_rungs(const Level& level, const float* const* rows, int begin, int end, Scratch& scratch,
                float* out) {
   std::array<float*, most_rungs> columns{};

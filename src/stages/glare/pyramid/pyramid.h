@@ -10,33 +10,12 @@
 #include <vector>
 
 #include "stages/glare/pyramid/ladder.h"
+#include "stages/glare/pyramid/planes.h"
 #include "stages/glare/pyramid/ring.h"
 #include "stages/glare/pyramid/rows.h"
 #include "stages/shared/parallel_for.h"
 
 namespace scotopic::glare {
-
-/// Rows of every plane of a level, margin included.
-class Planes {
- public:
-  /// All 0.
-  Planes(const Level& level, int planes);
-  /// Row y of a plane; rows beyond the margin are 0.
-  float* row(int plane, int y) { return rows_.row(index(plane, y)); }
-  /// The same, to read.
-  const float* row(int plane, int y) const { return rows_.row(index(plane, y)); }
-
-  /// What the constructor allocates.
-  static std::size_t bytes(const Level& level, int planes);
-
- private:
-  std::ptrdiff_t index(int plane, int y) const {
-    if (y < begin_ || y >= end_) return 0;
-    return 1 + static_cast<std::ptrdiff_t>(plane) * (end_ - begin_) + (y - begin_);
-  }
-  int begin_, end_;
-  Rows rows_;
-};
 
 /// Rows that one task works in.
 struct Scratch {
