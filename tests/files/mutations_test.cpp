@@ -1,6 +1,7 @@
 // Profiles, LUTs, XMP and spectra with random faults: one line, never a crash or an endless wait.
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -9,10 +10,10 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "cli/run_program.h"
 #include "color/icc/embedded_profile.h"
 #include "color/lut_trial.h"
 #include "files/made_files.h"
+#include "files/many_runs.h"
 
 namespace scotopic {
 namespace {
@@ -108,12 +109,24 @@ std::string mutated(const std::string& good, std::mt19937& random) {
   return text;
 }
 
-/// Ends with one of the program's own codes, in one line, within 5 s and 1 GiB.
-void expect_orderly(const std::vector<std::string>& arguments, const std::string& what, int& refused) {
-  const test::Outcome run = test::run_program(arguments, {5, 1ul << 30});
-  EXPECT_TRUE(run.exit_code == 0 || run.exit_code == 3 || run.exit_code == 4)
-      << what << ": exit " << run.exit_code << " " << run.err;
-  refused += run.exit_code != 0;
+/// Each ends with one of the program's own codes, within 5 s and 1 GiB; what is refused, in one line. How
+/// many are refused.
+int expect_orderly(const std::vector<std::vector<std::string>>& runs, const std::vector<std::string>& texts) {
+  const std::vector<test::OneOfMany> ends = test::run_many(runs);
+  int refused = 0;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const int code = ends[i].exit_code;
+    EXPECT_TRUE(code == 0 || code == 3 || code == 4) << texts[i] << ": exit " << code << " " << ends[i].err;
+    EXPECT_TRUE(code == 0 || ends[i].one_line) << texts[i] << ": " << ends[i].err;
+    refused += code != 0;
+  }
+  return refused;
+}
+
+/// JPEG with XMP in a segment of its own.
+std::string with_xmp(std::string jpeg, const std::string& xmp) {
+  const std::string body = std::string("http://ns.adobe.com/xap/1.0/\0", 29) + xmp;
+  return jpeg.insert(2, "\xff\xe1" + test::big_endian(static_cast<std::uint32_t>(body.size() + 2), 2) + body);
 }
 
 TEST(Mutations, mutated_xmp_neither_crashes_nor_hangs) {
@@ -131,41 +144,44 @@ TEST(Mutations, mutated_xmp_neither_crashes_nor_hangs) {
   std::ostringstream plain;
   plain << std::ifstream(test::place("plain.jpg"), std::ios::binary).rdbuf();
   std::mt19937 random(5);
-  int refused = 0;
   const int count = mutations(24);
+  std::vector<std::vector<std::string>> runs;
+  std::vector<std::string> texts;
   for (int i = 0; i < count; ++i) {
-    const std::string xmp = mutated(good, random);
-    std::string file = test::place("in.png");
-    if (i % 2 == 0) {
-      test::write_bytes(
-          file, test::flat_png({1, 2, 3}, {{"iTXt", "XML:com.adobe.xmp" + std::string(5, '\0') + xmp}}));
-    } else {
-      const std::string body = std::string("http://ns.adobe.com/xap/1.0/\0", 29) + xmp;
-      test::write_bytes(
-          file = test::place("in.jpg"),
-          plain.str().insert(
-              2, "\xff\xe1" + test::big_endian(static_cast<std::uint32_t>(body.size() + 2), 2) + body));
-    }
-    expect_orderly({"explain", file, "--white-luminance", "1"}, xmp, refused);
+    texts.push_back(mutated(good, random));
+    const std::string file = test::place("in" + std::to_string(i) + (i % 2 ? ".jpg" : ".png"));
+    const test::Chunk chunk = {"iTXt", "XML:com.adobe.xmp" + std::string(5, '\0') + texts.back()};
+    test::write_bytes(file, i % 2 ? with_xmp(plain.str(), texts.back()) : test::flat_png({1, 2, 3}, {chunk}));
+    runs.push_back({"explain", file, "--white-luminance", "1"});
   }
-  std::printf("XMP: %d mutations, %d refused, the others read\n", count, refused);
+  std::printf("XMP: %d mutations, %d refused, the others read\n", count, expect_orderly(runs, texts));
 }
 
 TEST(Mutations, mutated_spectra_neither_crash_nor_hang) {
   const std::string good =
-      "# a lamp\nnm,power\n380,0.5\n400.5;1e-3\n500 1.25\n555\t1.0\n600,2\n650,+1\n700,1e0\n780,0.0\n";
+      "# a lamp\nnm,power\n380,0.5\n400.5;1e-3\n500 1.25\n555\t1.0\n600,2\n650,1\n700,1e0\n780,0.0\n";
   test::write_flat_exr(test::place("in.exr"), {1, 1, 1});
   std::mt19937 random(3);
-  int refused = 0;
   const int count = mutations(24);
+  std::vector<std::vector<std::string>> runs;
+  std::vector<std::string> texts;
   for (int i = 0; i < count; ++i) {
-    const std::string text = mutated(good, random);
-    test::write_bytes(test::place("lamp.csv"), text);
-    expect_orderly(
-        {"explain", test::place("in.exr"), "--white-luminance", "1", "--illuminant", test::place("lamp.csv")},
-        text, refused);
+    texts.push_back(mutated(good, random));
+    const std::string lamp = test::place("lamp" + std::to_string(i) + ".csv");
+    test::write_bytes(lamp, texts.back());
+    runs.push_back({"explain", test::place("in.exr"), "--white-luminance", "1", "--illuminant", lamp});
   }
+  const int refused = expect_orderly(runs, texts);
   std::printf("spectra: %d mutations, %d refused, the others read\n", count, refused);
+  EXPECT_LT(refused, count);
+}
+
+TEST(Mutations, a_run_that_dies_is_told_and_the_next_one_goes_on) {
+  const std::vector<test::OneOfMany> ends = test::run_many({{"--version"}, {"(crash)"}, {"--version"}});
+  ASSERT_EQ(ends.size(), 3u);
+  EXPECT_EQ(ends[0].exit_code, 0);
+  EXPECT_EQ(ends[1].exit_code, 128 + SIGSEGV);
+  EXPECT_EQ(ends[2].exit_code, 0);
 }
 
 }  // namespace
