@@ -9,6 +9,8 @@ namespace {
 constexpr Xy d65 = white_d65;
 // The white of ST 2065-1: close to, but not, CIE D60.
 constexpr Xy aces_white{0.32168, 0.33767};
+constexpr Matrix3<double> bradford_cones{
+    {{{.8951, .2664, -.1614}, {-.7502, 1.7135, .0367}, {.0389, -.0685, 1.0296}}}};
 constexpr double chromaticity_tolerance = 1e-3;
 constexpr double matrix_tolerance = 5e-4;
 
@@ -52,6 +54,9 @@ bool are_usable(const Primaries& p) {
   const double area =
       (p.green.x - p.red.x) * (p.blue.y - p.red.y) - (p.blue.x - p.red.x) * (p.green.y - p.red.y);
   if (!(std::abs(area) > 1e-4)) return false;
+  // A white far from all that counts as one excites a cone negatively: nothing adapts to it.
+  for (const double cone : bradford_cones* xyz_of_white(p.white))
+    if (!(cone > 0)) return false;
   const Matrix3<double> m = xyz_d65_from_rgb(p);
   return std::abs(determinant(m)) > 1e-6 && std::isfinite(determinant(m));
 }
@@ -64,11 +69,7 @@ Matrix3<double> xyz_from_rgb(const Primaries& p) {
   return directions * diagonal(amounts);
 }
 
-Matrix3<double> bradford(Xy from, Xy to) {
-  constexpr Matrix3<double> cone{
-      {{{.8951, .2664, -.1614}, {-.7502, 1.7135, .0367}, {.0389, -.0685, 1.0296}}}};
-  return adapted(cone, from, to);
-}
+Matrix3<double> bradford(Xy from, Xy to) { return adapted(bradford_cones, from, to); }
 
 Matrix3<double> cat02(Xy from, Xy to) {
   constexpr Matrix3<double> cone{{{{.7328, .4296, -.1624}, {-.7036, 1.6975, .0061}, {.0030, .0136, .9834}}}};

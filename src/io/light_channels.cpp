@@ -14,93 +14,6 @@ namespace {
 
 using Kind = ColourChannels::Kind;
 
-// Words in lower case; letters alone count where they are all of a name.
-constexpr std::array<std::string_view, 47> data_words = {"crypto",
-                                                         "cryptomatte",
-                                                         "cryptoobject",
-                                                         "cryptomaterial",
-                                                         "cryptoasset",
-                                                         "normal",
-                                                         "normals",
-                                                         "n",
-                                                         "ng",
-                                                         "nn",
-                                                         "nworld",
-                                                         "ncamera",
-                                                         "nref",
-                                                         "depth",
-                                                         "z",
-                                                         "zdepth",
-                                                         "zback",
-                                                         "position",
-                                                         "positions",
-                                                         "p",
-                                                         "pworld",
-                                                         "pcamera",
-                                                         "pref",
-                                                         "worldposition",
-                                                         "motion",
-                                                         "motionvector",
-                                                         "motionvectors",
-                                                         "vector",
-                                                         "velocity",
-                                                         "uv",
-                                                         "st",
-                                                         "id",
-                                                         "ids",
-                                                         "objectid",
-                                                         "materialid",
-                                                         "instanceid",
-                                                         "index",
-                                                         "indexob",
-                                                         "indexma",
-                                                         "mist",
-                                                         "tangent",
-                                                         "tangents",
-                                                         "variance",
-                                                         "samplecount",
-                                                         "matte",
-                                                         "mattes",
-                                                         "mask"};
-constexpr std::array<std::string_view, 9> beauty_words = {"beauty", "combined", "rgb",   "rgba",  "ci",
-                                                          "final",  "master",   "color", "colour"};
-
-char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
-
-std::string lowered(std::string_view text) {
-  std::string out;
-  for (const char c : text) out += lower(c);
-  return out;
-}
-
-/// Runs of letters, cut where a capital follows a small one; each also with its neighbour ("motionVector").
-std::vector<std::string> words_of(std::string_view name) {
-  std::vector<std::string> out;
-  char before = ' ';
-  for (const char c : name) {
-    const bool letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
-    const bool starts =
-        !std::isalpha(static_cast<unsigned char>(before)) ||
-        (std::isupper(static_cast<unsigned char>(c)) && std::islower(static_cast<unsigned char>(before)));
-    if (letter && starts) out.emplace_back();
-    if (letter) out.back() += lower(c);
-    before = c;
-  }
-  return out;
-}
-
-template <std::size_t n>
-bool has_word(const std::array<std::string_view, n>& list, std::string_view name) {
-  const auto listed = [&](const std::string& word) {
-    return std::find(list.begin(), list.end(), word) != list.end();
-  };
-  const std::string last = lowered(name.substr(name.rfind('.') + 1));
-  if (listed(last)) return true;
-  const std::vector<std::string> words = words_of(name);
-  return std::any_of(words.begin(), words.end(),
-                     [&](const std::string& w) { return w.size() > 1 && listed(w); });
-}
-
 /// Channels of one layer by their last name; layer "" is the topmost.
 using Layer = std::map<std::string, std::size_t>;
 
@@ -132,20 +45,34 @@ void find_alpha(const Layer& layer, ColourChannels& out) {
     if (const auto found = layer.find(alpha); found != layer.end() && !out.alpha) out.alpha = found->second;
 }
 
+/// RED, Green, blue; of names that differ in capitals alone the first in the alphabet.
+Layer in_small_letters(const Layer& layer) {
+  Layer out;
+  for (const auto& [name, index] : layer) {
+    std::string small;
+    for (const char c : name) small += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    out.emplace(small, index);
+  }
+  return out;
+}
+
 ColourChannels colour_in(const std::string& name, const Layer& layer) {
   ColourChannels out;
   out.layer = name;
-  const auto take = [&](Kind kind, const std::vector<std::string>& names) {
-    const auto found = all_of(layer, names);
+  const auto take_of = [&](const Layer& from, Kind kind, const std::vector<std::string>& names) {
+    const auto found = all_of(from, names);
     if (out.kind != Kind::none || !found) return false;
     out.kind = kind;
     std::copy(found->begin(), found->end(), out.index.begin());
     return true;
   };
+  const auto take = [&](Kind kind, const std::vector<std::string>& names) {
+    return take_of(layer, kind, names);
+  };
   take(Kind::rgb, {"R", "G", "B"});
-  take(Kind::rgb, {"r", "g", "b"});
-  take(Kind::rgb, {"red", "green", "blue"});
-  take(Kind::rgb, {"Red", "Green", "Blue"});
+  const Layer small = in_small_letters(layer);
+  take_of(small, Kind::rgb, {"r", "g", "b"});
+  take_of(small, Kind::rgb, {"red", "green", "blue"});
   take(Kind::lmsr, {"L", "M", "S", "R"});
   // Under a name they are a position or a normal.
   if (name.empty()) out.xyz = take(Kind::rgb, {"X", "Y", "Z"});
@@ -209,45 +136,6 @@ ColourChannels only_one(const std::vector<ColourChannels>& all, const std::vecto
 }
 
 }  // namespace
-
-bool is_data_name(std::string_view name) { return has_word(data_words, name); }
-
-bool is_beauty_name(std::string_view name) { return has_word(beauty_words, name); }
-
-bool looks_spectral(std::string_view channel) {
-  const std::string name = lowered(channel);
-  const auto digits_before = [&](std::size_t at) {
-    while (at > 0 && name[at - 1] == ' ') --at;
-    return at > 0 && std::isdigit(static_cast<unsigned char>(name[at - 1]));
-  };
-  for (std::size_t at = name.find("nm"); at != std::string::npos; at = name.find("nm", at + 1))
-    if (digits_before(at)) return true;
-  for (std::size_t at = name.find("band"); at != std::string::npos; at = name.find("band", at + 1))
-    if (at + 4 < name.size() && std::isdigit(static_cast<unsigned char>(name[at + 4]))) return true;
-  const std::string last = name.substr(name.rfind('.') + 1);
-  return last.size() == 3 && last >= "300" && last <= "900" &&
-         std::all_of(last.begin(), last.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
-
-std::string name_list(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 8;
-  std::string out;
-  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) out += (i ? ", " : "") + names[i];
-  return names.size() > most ? out + ", ... (" + std::to_string(names.size()) + " in all)" : out;
-}
-
-std::string channel_list(const std::vector<Subimage>& subimages) {
-  constexpr std::size_t most = 16;
-  std::vector<std::string> names;
-  for (const Subimage& subimage : subimages)
-    for (const Channel& channel : subimage.channels) {
-      const std::string name = (subimage.name.empty() ? "" : subimage.name + ":") + channel.name;
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-    }
-  std::string out;
-  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) out += (i ? ", " : "") + names[i];
-  return names.size() > most ? out + ", ... (" + std::to_string(names.size()) + " in all)" : out;
-}
 
 std::vector<std::string> colour_layers(const Subimage& subimage) {
   std::vector<std::string> out;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,8 +20,9 @@ struct CodePoints {
   bool full_range = true;
 };
 
-/// Exif's ColorSpace, with the interoperability index R03 that DCF 2.0 has for Adobe RGB.
-enum class ExifColour { none, srgb, adobe_rgb };
+/// Exif's ColorSpace, with the interoperability index R03 that DCF 2.0 has for Adobe RGB. other: none of
+/// both (uncalibrated, or a maker's own).
+enum class ExifColour { none, srgb, adobe_rgb, other };
 
 /// All that a file's header or chunks state of its colours.
 struct ColourTags {
@@ -35,6 +37,9 @@ struct ColourTags {
   bool radiance = false;        ///< of a Radiance picture, where they have names of their own
   bool srgb = false;            ///< PNG's chunk sRGB
   ExifColour exif = ExifColour::none;
+  std::optional<double> exif_gamma;  ///< Exif's Gamma, that decodes
+  /// TIFF's TransferFunction: light of each code, 0 to 65535; one table, or three of the same size.
+  std::shared_ptr<const std::vector<std::uint16_t>> transfer_table;
 };
 
 }  // namespace scotopic

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "color/file/written_tags.h"
 #include "color/icc/embedded_profile.h"
 
 namespace scotopic {
@@ -57,6 +58,23 @@ void require_usable(const Primaries& primaries, const std::string& file) {
     throw Error(ExitCode::input, file, fmt::format("its chromaticities span no colour space{}", say_it));
 }
 
+/// Exif's Gamma.
+std::optional<TransferCurve> exif_curve(const ColourTags& tags, const std::string& file) {
+  if (!tags.exif_gamma) return std::nullopt;
+  const double gamma = *tags.exif_gamma;
+  if (!(gamma > 0.1 && gamma < 10))
+    throw Error(ExitCode::input, file, fmt::format("Exif gamma {:.5g} is out of all use{}", gamma, say_it));
+  if (std::abs(gamma - 1) < 1e-4) return TransferCurve{};
+  return TransferCurve{Transfer::power, gamma};
+}
+
+/// Of integers whose curve nothing else states.
+TransferCurve curve_beside_primaries(const ColourTags& tags, const std::string& file) {
+  if (tags.exif == ExifColour::adobe_rgb) return {Transfer::power, adobe_rgb_gamma};
+  if (tags.exif == ExifColour::srgb) return {Transfer::srgb};
+  return exif_curve(tags, file).value_or(TransferCurve{Transfer::srgb});
+}
+
 std::optional<Statement> by_primaries(const ColourTags& tags, const std::string& file, bool integer,
                                       const ColourConfig& config) {
   if (!tags.primaries) return std::nullopt;
@@ -70,10 +88,14 @@ std::optional<Statement> by_primaries(const ColourTags& tags, const std::string&
   const NamedPrimaries* known = match_primaries(*tags.primaries);
   RgbEncoding encoding;
   encoding.xyz_from_rgb = xyz_d65_from_rgb(known ? known->primaries : *tags.primaries);
-  if (integer) encoding.curve = {Transfer::srgb};
-  const char* name = integer ? "sRGB curve, the file's chromaticities" : "linear, the file's chromaticities";
-  return Statement{space_of(encoding, name, config),
-                   integer ? "the file's chromaticities, with sRGB's curve" : "the file's chromaticities"};
+  if (!integer)
+    return Statement{space_of(encoding, "linear, the file's chromaticities", config),
+                     "the file's chromaticities"};
+  encoding.curve = curve_beside_primaries(tags, file);
+  const std::string curve = describe(encoding.curve);
+  return Statement{space_of(encoding, curve + ", the file's chromaticities", config),
+                   encoding.curve.kind == Transfer::srgb ? "the file's chromaticities, with sRGB's curve"
+                                                         : "the file's chromaticities, " + curve};
 }
 
 std::optional<Statement> by_gamma(const ColourTags& tags, const std::string& file,
@@ -104,10 +126,37 @@ std::optional<Statement> by_profile(const ColourTags& tags, const std::string& f
   return Statement{space, fmt::format("the file's ICC profile '{}'", space.name)};
 }
 
-std::optional<Statement> by_exif(ExifColour exif, const ColourConfig& config) {
-  if (exif == ExifColour::none) return std::nullopt;
-  const char* id = exif == ExifColour::srgb ? "srgb_rec709_scene" : "g22_adobergb_scene";
+/// TransferFunction, with the primaries if they are stated: as a profile, which holds tables.
+std::optional<Statement> by_table(const ColourTags& tags, const std::string& file) {
+  if (!tags.transfer_table) return std::nullopt;
+  if (tags.primaries) require_usable(*tags.primaries, file);
+  const Matrix3<double> matrix =
+      tags.primaries ? xyz_d65_from_rgb(*tags.primaries) : gamut_xyz_matrix("rec709").value();
+  std::vector<std::byte> bytes = make_table_profile(*tags.transfer_table, matrix);
+  if (bytes.empty())
+    throw Error(ExitCode::input, file, std::string("its TransferFunction is no curve that rises") + say_it);
+  ColourSpace space{tags.primaries ? "TransferFunction, the file's chromaticities" : "TransferFunction"};
+  space.embedded = std::make_shared<const EmbeddedProfile>(std::move(bytes), file);
+  return Statement{space, tags.primaries ? "the file's TransferFunction and chromaticities"
+                                         : "the file's TransferFunction"};
+}
+
+std::optional<Statement> by_exif(const ColourTags& tags, const ColourConfig& config) {
+  if (tags.exif != ExifColour::srgb && tags.exif != ExifColour::adobe_rgb) return std::nullopt;
+  const char* id = tags.exif == ExifColour::srgb ? "srgb_rec709_scene" : "g22_adobergb_scene";
   return Statement{space_of(interop_encoding(id).value(), id, config), "the file's Exif colour space"};
+}
+
+/// Of integers. Beside a space that Exif names 2.2 is what both of them are called.
+std::optional<Statement> by_exif_gamma(const ColourTags& tags, const std::string& file, bool integer,
+                                       const ColourConfig& config) {
+  const std::optional<TransferCurve> curve = integer ? exif_curve(tags, file) : std::nullopt;
+  const bool named = tags.exif == ExifColour::srgb || tags.exif == ExifColour::adobe_rgb;
+  if (!curve || (named && std::abs(*tags.exif_gamma - 2.2) < 0.05)) return std::nullopt;
+  RgbEncoding encoding{*curve, gamut_xyz_matrix("rec709").value()};
+  if (tags.primaries) encoding.xyz_from_rgb = xyz_d65_from_rgb(*tags.primaries);
+  return Statement{space_of(encoding, describe(*curve), config),
+                   fmt::format("the file's Exif gamma {:.5g}", *tags.exif_gamma)};
 }
 
 /// All that the file states, the first of which holds.
@@ -134,10 +183,13 @@ std::vector<Statement> statements(const ColourTags& tags, const std::string& fil
   } else if (tags.gamma) {
     // gAMA and cHRM belong together.
     add(by_gamma(tags, file, config));
+  } else if (tags.transfer_table) {
+    add(by_table(tags, file));
   } else {
     add(by_primaries(tags, file, integer, config));
   }
-  add(by_exif(tags.exif, config));
+  add(by_exif(tags, config));
+  add(by_exif_gamma(tags, file, integer, config));
   return out;
 }
 
@@ -166,7 +218,10 @@ FileColour colour_of_file(const ColourTags& tags, const std::string& file, bool 
   FileColour out;
   if (stated.empty()) {
     const RuledSpace ruled = config.space_by_rules(file, integer);
-    return {ruled.space, ruled.reason, {}};
+    FileColour assumed{ruled.space, ruled.reason, {}};
+    if (tags.exif == ExifColour::other)
+      assumed.notes.emplace_back("its Exif says that it is not sRGB, and nothing says what it is");
+    return assumed;
   }
   out.space = stated.front().space;
   out.reason = stated.front().reason;

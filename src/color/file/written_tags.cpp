@@ -2,7 +2,9 @@
 
 #include <lcms2.h>
 
+#include <algorithm>
 #include <array>
+#include <span>
 #include <string>
 
 #include "color/icc/embedded_profile.h"
@@ -16,11 +18,12 @@ using Bytes = std::vector<std::byte>;
 struct Made {
   ~Made() {
     if (profile) cmsCloseProfile(profile);
-    if (curve) cmsFreeToneCurve(curve);
+    for (cmsToneCurve* const curve : curves)
+      if (curve) cmsFreeToneCurve(curve);
     if (context) cmsDeleteContext(context);
   }
   cmsContext context = cmsCreateContext(nullptr, nullptr);
-  cmsToneCurve* curve = nullptr;
+  std::array<cmsToneCurve*, 3> curves{};
   cmsHPROFILE profile = nullptr;
 };
 
@@ -51,7 +54,18 @@ bool write_text(const Made& made, cmsTagSignature tag, const std::string& text) 
   return done;
 }
 
-/// A display profile of matrix and curve (ICC.1:2001-04, 6.3.2.2): written by hand, as CIE XYZ has primaries
+/// Light of each code; a table as long as that of 16 bits is more than a profile holds (ICC.1: LittleCMS
+/// takes 65530), and is met at 4096 places.
+cmsToneCurve* tone_curve(cmsContext context, std::span<const std::uint16_t> table) {
+  constexpr std::size_t most = 4096;
+  if (!std::is_sorted(table.begin(), table.end()) || table.front() == table.back()) return nullptr;
+  std::vector<std::uint16_t> places(std::min(most, table.size()));
+  for (std::size_t i = 0; i < places.size(); ++i)
+    places[i] = table[(i * (table.size() - 1) + (places.size() - 1) / 2) / (places.size() - 1)];
+  return cmsBuildTabulatedToneCurve16(context, static_cast<cmsUInt32Number>(places.size()), places.data());
+}
+
+/// A display profile of matrix and curves (ICC.1:2001-04, 6.3.2.2): written by hand, as CIE XYZ has primaries
 /// of y = 0.
 bool fill_profile(const Made& made, const Matrix3<double>& d50_from_rgb, const std::string& name) {
   cmsSetProfileVersion(made.profile, 2.4);
@@ -66,9 +80,24 @@ bool fill_profile(const Made& made, const Matrix3<double>& d50_from_rgb, const s
   for (std::size_t c = 0; c < 3; ++c) {
     const cmsCIEXYZ xyz = {d50_from_rgb[0][c], d50_from_rgb[1][c], d50_from_rgb[2][c]};
     done = done && cmsWriteTag(made.profile, colorants[c], &xyz) &&
-           cmsWriteTag(made.profile, curves[c], made.curve);
+           cmsWriteTag(made.profile, curves[c], made.curves[c]);
   }
   return done;
+}
+
+/// Its bytes; empty where a curve is missing.
+Bytes saved(Made& made, const Matrix3<double>& xyz_from_rgb, const std::string& name) {
+  if (!made.curves[0] || !made.curves[1] || !made.curves[2]) return {};
+  made.profile = cmsCreateProfilePlaceholder(made.context);
+  if (!made.profile || !fill_profile(made, bradford(white_d65, icc_d50) * xyz_from_rgb, name)) return {};
+  cmsUInt32Number size = 0;
+  if (!cmsSaveProfileToMem(made.profile, nullptr, &size)) return {};
+  Bytes out(size);
+  if (!cmsSaveProfileToMem(made.profile, out.data(), &size)) return {};
+  // Its date is of no use, and would make the same picture different bytes: 1 January 2000 (ICC.1, 7.2.8).
+  const std::array<unsigned char, 12> date = {0x07, 0xd0, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0};
+  for (std::size_t i = 0; i < date.size(); ++i) out[24 + i] = std::byte{date[i]};
+  return out;
 }
 
 std::shared_ptr<const Bytes> shared(Bytes bytes) {
@@ -95,19 +124,18 @@ Primaries primaries_of(const Matrix3<double>& m) {
 
 Bytes make_profile(const TransferCurve& curve, const Matrix3<double>& xyz_from_rgb) {
   Made made;
-  made.curve = tone_curve(made.context, curve);
-  if (!made.curve) return {};
-  made.profile = cmsCreateProfilePlaceholder(made.context);
-  if (!made.profile || !fill_profile(made, bradford(white_d65, icc_d50) * xyz_from_rgb, describe(curve)))
-    return {};
-  cmsUInt32Number size = 0;
-  if (!cmsSaveProfileToMem(made.profile, nullptr, &size)) return {};
-  Bytes out(size);
-  if (!cmsSaveProfileToMem(made.profile, out.data(), &size)) return {};
-  // Its date is of no use, and would make the same picture different bytes: 1 January 2000 (ICC.1, 7.2.8).
-  const std::array<unsigned char, 12> date = {0x07, 0xd0, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0};
-  for (std::size_t i = 0; i < date.size(); ++i) out[24 + i] = std::byte{date[i]};
-  return out;
+  for (cmsToneCurve*& channel : made.curves) channel = tone_curve(made.context, curve);
+  return saved(made, xyz_from_rgb, describe(curve));
+}
+
+Bytes make_table_profile(const std::vector<std::uint16_t>& tables, const Matrix3<double>& xyz_from_rgb) {
+  Made made;
+  // One table has a power of two of entries, no multiple of three.
+  const std::size_t size = tables.size() % 3 == 0 ? tables.size() / 3 : tables.size();
+  for (std::size_t c = 0; size > 1 && c < 3; ++c)
+    made.curves[c] =
+        tone_curve(made.context, std::span(tables).subspan(size == tables.size() ? 0 : c * size, size));
+  return saved(made, xyz_from_rgb, "TransferFunction");
 }
 
 WrittenTags written_tags(const ColourSpace& space, const ColourConfig& config) {

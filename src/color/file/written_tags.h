@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -28,6 +29,11 @@ bool can_be_stated(const ColourSpace& space, bool exr, bool named);
 
 /// An ICC profile (version 2) of encoded RGB; empty for a curve that such a one cannot hold (PQ, HLG).
 std::vector<std::byte> make_profile(const TransferCurve& curve, const Matrix3<double>& xyz_from_rgb);
+
+/// The same of tables from codes to light (0 to 65535): one for R, G and B, or three of the same size, one
+/// behind the other. Empty for tables that fall or are all of one value.
+std::vector<std::byte> make_table_profile(const std::vector<std::uint16_t>& tables,
+                                          const Matrix3<double>& xyz_from_rgb);
 
 /// Chromaticities of a matrix to CIE XYZ (D65): primaries of white D65.
 Primaries primaries_of(const Matrix3<double>& xyz_from_rgb);

@@ -118,7 +118,7 @@ void make_lossless(Imf::Header& header) {
 
 Imf::Header make_header(const PixelSource& source, const Subimage& subimage, std::size_t index) {
   const auto box = [](const Window& w) { return Imath::Box2i({w.x0, w.y0}, {w.x1 - 1, w.y1 - 1}); };
-  Imf::Header header(box(subimage.display), box(subimage.data));
+  Imf::Header header(box(subimage.display), box(subimage.data), static_cast<float>(subimage.pixel_aspect));
   header.setType(Imf::SCANLINEIMAGE);
   header.compression() = Imf::ZIP_COMPRESSION;
   set_foreign_attributes(header, source.attributes(index));

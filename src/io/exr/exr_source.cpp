@@ -2,8 +2,6 @@
 
 #include <OpenEXR/ImfEnvmapAttribute.h>
 #include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfChromaticitiesAttribute.h>
-#include <OpenEXR/ImfVecAttribute.h>
 #include <OpenEXR/ImfCompression.h>
 #include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -23,6 +21,7 @@
 
 #include "base/error.h"
 #include "io/exr/exr_headers.h"
+#include "io/exr/exr_tags.h"
 #include "io/exr/open_exr.h"
 
 namespace scotopic {
@@ -39,45 +38,6 @@ bool is_luminance_chroma(const Imf::Header& header) {
 }
 
 bool is_tiled(const Imf::Header& header) { return header.hasTileDescription(); }
-
-std::optional<double> float_attribute(const Imf::Header& header, const char* name) {
-  const auto* found = header.findTypedAttribute<Imf::FloatAttribute>(name);
-  return found ? std::optional<double>(found->value()) : std::nullopt;
-}
-
-std::optional<Xy> adopted_neutral_of(const Imf::Header& header) {
-  const auto* const found = header.findTypedAttribute<Imf::V2fAttribute>("adoptedNeutral");
-  if (!found) return std::nullopt;
-  const Xy xy = {static_cast<double>(found->value().x), static_cast<double>(found->value().y)};
-  // Farther than that from equal energy lies no white, and adaptation to it breaks down.
-  const auto near = [](double c) { return std::abs(c - 1.0 / 3) < 0.12; };
-  return near(xy.x) && near(xy.y) ? std::optional(xy) : std::nullopt;
-}
-
-std::optional<Primaries> primaries_of(const Imf::Header& header) {
-  if (!Imf::hasChromaticities(header)) return std::nullopt;
-  const Imf::Chromaticities& c = Imf::chromaticities(header);
-  const auto xy = [](const Imath::V2f& v) { return Xy{v.x, v.y}; };
-  return Primaries{xy(c.red), xy(c.green), xy(c.blue), xy(c.white)};
-}
-
-std::string text_attribute(const Imf::Header& header, const char* name) {
-  const auto* found = header.findTypedAttribute<Imf::StringAttribute>(name);
-  return found ? found->value() : "";
-}
-
-/// By the Color Interop Forum's "Identifying the Color Space of OpenEXR Files" the first part's identifier
-/// holds for the whole file; other parts need none, but may be data.
-ColourTags colour_tags(const Imf::Header& header, const Imf::Header& first) {
-  ColourTags tags;
-  const auto* container = header.findTypedAttribute<Imf::IntAttribute>("acesImageContainerFlag");
-  tags.aces_container = container && container->value() == 1;
-  tags.interop_id = text_attribute(header, "colorInteropID");
-  if (tags.interop_id.empty()) tags.interop_id = text_attribute(first, "colorInteropID");
-  tags.primaries = primaries_of(header);
-  tags.adopted_neutral = adopted_neutral_of(header);
-  return tags;
-}
 
 Window window_of(const Imath::Box2i& box) {
   // 64 bits first: a hostile header may hold the extremes of int.
@@ -178,8 +138,9 @@ void ExrSource::add_subimages(int part) {
   subimage.display = window_of(header.displayWindow());
   subimage.readable = !is_deep(header);
   subimage.colour = colour_tags(header, exr_->header(0));
-  subimage.white_luminance = float_attribute(header, "whiteLuminance");
-  subimage.lmsr_unit = float_attribute(header, "scotopic:lmsrUnit");
+  subimage.white_luminance = number_attribute(header, "whiteLuminance");
+  subimage.lmsr_unit = number_attribute(header, "scotopic:lmsrUnit");
+  subimage.notes = mistyped_attributes(header);
   subimage.chunk_rows = rows_compressed_together(header);
   subimage.descending = header.lineOrder() == Imf::DECREASING_Y;
   for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {

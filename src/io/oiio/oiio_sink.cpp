@@ -225,6 +225,7 @@ class OiioSink : public PixelSink {
     if (format_ == "tiff") spec.attribute("tiff:zipquality", 4);
     spec.erase_attribute("oiio:BitsPerSample");
     spec.attribute("Orientation", 1);  // sources are upright
+    set_aspect(spec, subimage.pixel_aspect);
     erase_if(spec, describes_pixels);
     spec.attribute("ImageDescription", without_pixel_facts(spec.get_string_attribute("ImageDescription")));
     if (const bool anew = out.new_tags || out.tags.icc; anew) {
@@ -243,6 +244,17 @@ class OiioSink : public PixelSink {
     for (const OIIO::ParamValue& p : spec.extra_attribs)
       if (stale(p.name().string())) names.push_back(p.name().string());
     for (const std::string& name : names) spec.erase_attribute(name);
+  }
+
+  /// By pixels per unit across and down; OpenImageIO's own way inverts it in JPEG.
+  void set_aspect(OIIO::ImageSpec& spec, double aspect) const {
+    constexpr float across = 100;
+    spec.erase_attribute("PixelAspectRatio");
+    if (aspect == 1) return;
+    if (format_ != "jpeg") spec.attribute("PixelAspectRatio", static_cast<float>(aspect));
+    spec.attribute("XResolution", across);
+    spec.attribute("YResolution", static_cast<float>(across * aspect));
+    spec.attribute("ResolutionUnit", "none");
   }
 
   /// Linear light of BT.709 is what float TIFF is taken to be, and gAMA 1 says it in PNG.

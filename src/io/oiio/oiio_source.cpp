@@ -116,6 +116,8 @@ OiioSource::OiioSource(const std::string& file, const std::string& format, const
   for (int page = 0; input_->seek_subimage(page, 0); ++page) {
     add_subimage(page, input_->spec());
     check_limits(limits);
+    if (input_->seek_subimage(page, 1))
+      subimages_.back().notes.emplace_back("its smaller resolutions (mip levels) are left out");
   }
   (void)input_->geterror();  // "no such page" ended the loop
 }
@@ -145,11 +147,10 @@ void OiioSource::add_subimage(int page, const OIIO::ImageSpec& spec) {
   subimage.white_luminance = float_attribute(spec, "whiteLuminance");
   scans_.resize(std::max(scans_.size(), subimages_.size() + 1));
   ImageScan& scan = scans_[subimages_.size()];
-  // Of Radiance's order of pixels OpenImageIO tells by the same name.
-  scan.orientation = spec.get_int_attribute("Orientation", scan.orientation);
+  // Of Radiance's order of pixels OpenImageIO tells by the same name, and two of eight wrongly.
+  if (format() != "hdr") scan.orientation = spec.get_int_attribute("Orientation", scan.orientation);
   if (scan.orientation < 1 || scan.orientation > 8) scan.orientation = 1;
-  subimage.pixel_aspect = usable_aspect(
-      static_cast<double>(spec.get_float_attribute("PixelAspectRatio", 1.0f)) * scan.pixel_aspect);
+  subimage.pixel_aspect = usable_aspect(scan.pixel_aspect);
   if (turns(scan.orientation)) subimage.pixel_aspect = 1 / subimage.pixel_aspect;
   set_colour(subimage, scan);
   set_upright(subimage, scan);
@@ -163,6 +164,7 @@ void OiioSource::set_colour(Subimage& subimage, ImageScan& scan) const {
       subimage.channels[c].name = std::string(1, "XYZ"[c]);
   subimage.colour = scan.colour;
   subimage.panorama = scan.panorama && !turns(scan.orientation);
+  subimage.notes.insert(subimage.notes.end(), scan.notes.begin(), scan.notes.end());
   if (scan.gain_map)
     subimage.notes.push_back("its gain map is left out: the picture is the rendition for SDR displays");
   else if (scan.images_behind > 0)

@@ -20,11 +20,12 @@ struct ImageScan {
   int orientation = 1;                        ///< Exif's 1 to 8
   double exposure = 1;                        ///< pixels are this times the light (Radiance HDR), and
   std::array<double, 3> correction{1, 1, 1};  ///< these, of each channel
-  double pixel_aspect = 1;    ///< width over height of a pixel, as Radiance's PIXASPECT has it
-  std::uint64_t xyze_at = 0;  ///< channels are X, Y, Z (Radiance xyze): where the file says it
-  bool gain_map = false;      ///< a second picture makes an HDR one of it
-  int images_behind = 0;      ///< in a JPEG's Multi-Picture Format
-  bool panorama = false;      ///< all of a lat-long one (GPano)
+  double pixel_aspect = 1;         ///< width over height of a pixel: PIXASPECT, resolutions that differ
+  std::uint64_t xyze_at = 0;       ///< channels are X, Y, Z (Radiance xyze): where the file says it
+  bool gain_map = false;           ///< a second picture makes an HDR one of it
+  int images_behind = 0;           ///< in a JPEG's Multi-Picture Format
+  bool panorama = false;           ///< all of a lat-long one (GPano)
+  std::vector<std::string> notes;  ///< what else is to be said
 };
 
 /// Throws Error(input) for a damaged or hostile ICC profile or XMP packet, and for pixels that are no RGB
@@ -37,8 +38,7 @@ ImageScan scan_jpeg(const std::string& file);
 std::vector<ImageScan> scan_tiff(const std::string& file);
 ImageScan scan_hdr(const std::string& file);
 
-/// Orientation, colour space and interoperability index of an Exif block (a TIFF of its own), as far as it
-/// goes.
+/// Orientation and colours of an Exif block (a TIFF of its own), as far as it goes.
 void read_exif(std::span<const std::byte> block, ImageScan& scan);
 
 /// Where the images behind the first begin, by the index of a Multi-Picture Format (a TIFF of its own).

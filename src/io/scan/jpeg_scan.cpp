@@ -12,7 +12,7 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-constexpr std::uint64_t app1 = 0xe1, app2 = 0xe2;
+constexpr std::uint64_t app0 = 0xe0, app1 = 0xe1, app2 = 0xe2;
 constexpr int most_images = 64;  // of a Multi-Picture Format, that are looked into
 
 bool begins(const Bytes& segment, std::string_view with) {
@@ -27,7 +27,7 @@ std::span<const std::byte> after(const Bytes& segment, std::string_view head) {
 
 using namespace std::string_view_literals;
 
-constexpr std::string_view exif = "Exif\0\0"sv, xmp = "http://ns.adobe.com/xap/1.0/\0"sv,
+constexpr std::string_view jfif = "JFIF\0"sv, exif = "Exif\0\0"sv, xmp = "http://ns.adobe.com/xap/1.0/\0"sv,
                            icc = "ICC_PROFILE\0"sv, gain_map = "urn:iso:std:iso:ts:21496:-1\0"sv,
                            multi_picture = "MPF\0"sv;
 
@@ -56,7 +56,7 @@ void each_segment(FileBytes& bytes, std::uint64_t at, Use use) {
       continue;
     }
     if (size < 2) break;
-    const bool wanted = marker == app1 || marker == app2 || is_frame(marker);
+    const bool wanted = marker == app0 || marker == app1 || marker == app2 || is_frame(marker);
     use(marker, at + 4, wanted ? bytes.at(at + 4, size - 2) : Bytes{});
     at += 2 + size;
   }
@@ -81,6 +81,13 @@ void scan_multi_picture(FileBytes& bytes, const Bytes& segment, std::uint64_t at
   }
 }
 
+/// JFIF 1.02: version, units, and how many pixels there are to one, across and down.
+double aspect_of(const Bytes& segment) {
+  const auto across = static_cast<double>(number_at(segment, jfif.size() + 3, 2, true));
+  const auto down = static_cast<double>(number_at(segment, jfif.size() + 5, 2, true));
+  return across > 0 && down > 0 ? down / across : 1.0;
+}
+
 }  // namespace
 
 ImageScan scan_jpeg(const std::string& file) {
@@ -90,6 +97,7 @@ ImageScan scan_jpeg(const std::string& file) {
   each_segment(bytes, 0, [&](std::uint64_t marker, std::uint64_t at, const Bytes& segment) {
     if (is_frame(marker) && number_at(segment, 5, 1, true) == 4)
       throw Error(ExitCode::input, file, "holds CMYK, not RGB: convert it first, with its profile");
+    if (marker == app0 && begins(segment, jfif)) scan.pixel_aspect = aspect_of(segment);
     if (marker == app1 && begins(segment, exif)) read_exif(after(segment, exif), scan);
     if (marker == app1 && begins(segment, xmp)) check_xmp(after(segment, xmp), file, scan);
     if (marker == app2 && begins(segment, gain_map)) scan.gain_map = true;

@@ -2,6 +2,9 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
+#include <set>
+#include <string>
 #include <string_view>
 
 #include "base/error.h"
@@ -51,7 +54,6 @@ double fixed_point(const Bytes& chunk, std::size_t at) {
 }
 
 void read_chromaticities(const Bytes& chunk, ColourTags& tags) {
-  if (chunk.size() != 32) return;
   const auto xy = [&](std::size_t i) { return Xy{fixed_point(chunk, 8 * i), fixed_point(chunk, 8 * i + 4)}; };
   tags.primaries = Primaries{xy(1), xy(2), xy(3), xy(0)};
 }
@@ -74,24 +76,67 @@ void read_text(const std::string& type, const Bytes& chunk, const std::string& f
     check_xmp(rest, file, scan);
 }
 
-void read_chunk(const std::string& type, const Bytes& chunk, const std::string& file, ImageScan& scan) {
+/// Pixels per unit, across and down: where they differ, pixels are no squares.
+double aspect_of(const Bytes& chunk) {
+  const auto across = static_cast<double>(number_at(chunk, 0, 4, true));
+  const auto down = static_cast<double>(number_at(chunk, 4, 4, true));
+  return across > 0 && down > 0 ? down / across : 1.0;
+}
+
+/// One of a known size.
+void read_fixed_chunk(const std::string& type, const Bytes& chunk, ImageScan& scan) {
   ColourTags& tags = scan.colour;
-  if (type == "IHDR" && chunk.size() == 13) {
-    scan.width = static_cast<std::int64_t>(number_at(chunk, 0, 4, true));
+  const std::uint64_t first = number_at(chunk, 0, 4, true);
+  if (type == "IHDR") {
+    scan.width = static_cast<std::int64_t>(first);
     scan.height = static_cast<std::int64_t>(number_at(chunk, 4, 4, true));
-  } else if (type == "iCCP") {
-    std::size_t at = 0;
-    text_at(chunk, at);
-    keep_profile(inflated(std::span(chunk).subspan(std::min(at + 1, chunk.size()))), file, scan);
-  } else if (type == "cICP" && chunk.size() == 4) {
+  } else if (type == "cICP") {
     const auto code = [&](std::size_t i) { return std::to_integer<int>(chunk[i]); };
     tags.code_points = CodePoints{code(0), code(1), code(2), code(3) != 0};
-  } else if (type == "gAMA" && chunk.size() == 4 && number_at(chunk, 0, 4, true) > 0) {
+  } else if (type == "gAMA" && first > 0) {
     tags.gamma = 1 / fixed_point(chunk, 0);
+  } else if (type == "gAMA") {
+    scan.notes.emplace_back("its chunk gAMA says nothing, and is left alone");
   } else if (type == "cHRM") {
     read_chromaticities(chunk, tags);
   } else if (type == "sRGB") {
     tags.srgb = true;
+  } else if (type == "pHYs") {
+    scan.pixel_aspect = aspect_of(chunk);
+  } else if (type == "acTL" && first > 1) {
+    scan.notes.push_back("is an animation: one of its " + std::to_string(first) + " frames is read");
+  }
+}
+
+struct Wanted {
+  std::string_view type;
+  std::size_t size;    // 0: any
+  bool before_pixels;  // has no say behind them (11.3, table 7)
+};
+constexpr std::array<Wanted, 13> wanted = {{{"IHDR", 13, true},
+                                            {"cICP", 4, true},
+                                            {"gAMA", 4, true},
+                                            {"cHRM", 32, true},
+                                            {"sRGB", 1, true},
+                                            {"pHYs", 9, true},
+                                            {"acTL", 8, true},
+                                            {"iCCP", 0, true},
+                                            {"eXIf", 0, false},
+                                            {"gmAP", 0, false},
+                                            {"tEXt", 0, false},
+                                            {"zTXt", 0, false},
+                                            {"iTXt", 0, false}}};
+
+void read_chunk(const Wanted& what, const Bytes& chunk, const std::string& file, ImageScan& scan) {
+  const std::string type(what.type);
+  if (what.size > 0 && chunk.size() != what.size) {
+    scan.notes.push_back("its chunk " + type + " is not of its size, and is left alone");
+  } else if (what.size > 0) {
+    read_fixed_chunk(type, chunk, scan);
+  } else if (type == "iCCP") {
+    std::size_t at = 0;
+    text_at(chunk, at);
+    keep_profile(inflated(std::span(chunk).subspan(std::min(at + 1, chunk.size()))), file, scan);
   } else if (type == "gmAP") {  // of the fourth edition, whose gdAT follows it
     scan.gain_map = true;
   } else if (type == "eXIf") {
@@ -101,22 +146,35 @@ void read_chunk(const std::string& type, const Bytes& chunk, const std::string& 
   }
 }
 
+/// Whether it counts where it stands: of those before the pixels the first.
+bool counts(const Wanted& what, bool pixels_seen, std::set<std::string_view>& seen, ImageScan& scan) {
+  if (!what.before_pixels) return true;
+  const bool first = seen.insert(what.type).second;
+  if (first && !pixels_seen) return true;
+  scan.notes.push_back("its " + std::string(first ? "" : "second ") + "chunk " + std::string(what.type) +
+                       (pixels_seen ? " stands behind the pixels and" : "") + " is left alone");
+  return false;
+}
+
 }  // namespace
 
 ImageScan scan_png(const std::string& file) {
-  static constexpr std::string_view wanted[] = {"IHDR", "iCCP", "cICP", "gAMA", "cHRM", "sRGB",
-                                                "eXIf", "gmAP", "tEXt", "zTXt", "iTXt"};
   ImageScan scan;
   FileBytes bytes(file);
+  bool pixels_seen = false;
+  std::set<std::string_view> seen;
   for (std::uint64_t at = signature_size; at + 12 <= bytes.size();) {
     const Bytes head = bytes.at(at, 8);
     const std::uint64_t size = number_at(head, 0, 4, true);
     const std::string type(reinterpret_cast<const char*>(head.data()) + 4, 4);
     if (type == "IEND") break;
-    if (std::find(std::begin(wanted), std::end(wanted), type) != std::end(wanted)) {
+    pixels_seen = pixels_seen || type == "IDAT";
+    const auto* const what =
+        std::find_if(wanted.begin(), wanted.end(), [&](const Wanted& w) { return w.type == type; });
+    if (what != wanted.end() && counts(*what, pixels_seen, seen, scan)) {
       if (size > most_chunk_bytes)
         throw Error(ExitCode::input, file, "is damaged: a chunk " + type + " is larger than any");
-      read_chunk(type, bytes.at(at + 8, size), file, scan);
+      read_chunk(*what, bytes.at(at + 8, size), file, scan);
     }
     at += size + 12;
   }

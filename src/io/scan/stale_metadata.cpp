@@ -11,11 +11,11 @@ constexpr std::array<std::string_view, 7> pixel_names = {
     "oiio:SHA-1", "oiio:AverageColor", "oiio:ConstantColor", "oiio:ConstantAlpha",
     "SHA-1",      "AverageColor",      "ConstantColor"};
 
-constexpr std::array<std::string_view, 13> colour_names = {
-    "chromaticities",  "adoptedNeutral", "colorInteropID", "acesImageContainerFlag",
-    "oiio:ColorSpace", "oiio:Gamma",     "ICCProfile",     "Exif:ColorSpace",
-    "png:gAMA",        "CICP",           "colorSpace",     "renderingTransform",
-    "lookModTransform"};
+constexpr std::array<std::string_view, 14> colour_names = {
+    "chromaticities",     "adoptedNeutral",  "colorInteropID", "acesImageContainerFlag",
+    "oiio:ColorSpace",    "oiio:Gamma",      "ICCProfile",     "Exif:ColorSpace",
+    "Exif:Gamma",         "png:gAMA",        "CICP",           "colorSpace",
+    "renderingTransform", "lookModTransform"};
 
 template <std::size_t n>
 bool listed(const std::array<std::string_view, n>& names, std::string_view name) {

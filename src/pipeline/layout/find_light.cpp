@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
 #include <tuple>
 
 #include "base/error.h"
@@ -13,6 +14,22 @@ namespace scotopic {
 namespace {
 
 using Kind = ColourChannels::Kind;
+
+/// Grey is Y, and Y is luminance, also where R, G, B would be X, Y, Z.
+ColourTags tags_of(const Subimage& subimage, Kind kind) {
+  ColourTags tags = subimage.colour;
+  if (kind == Kind::grey && tags.primaries && are_cie_xyz(*tags.primaries)) tags.primaries.reset();
+  return tags;
+}
+
+/// What the header says besides of channels that are X, Y, Z by their names.
+std::vector<std::string> conflicts_with_xyz(const ColourTags& tags) {
+  const auto id = interop_encoding(tags.interop_id);
+  const bool other_id = id && !is_cie_xyz(id->xyz_from_rgb);
+  if (!other_id && (!tags.primaries || are_cie_xyz(*tags.primaries))) return {};
+  return {std::string("channels X, Y, Z and the file's ") + (other_id ? "colorInteropID" : "chromaticities") +
+          " say different things of its colours: the former holds"};
+}
 
 void choose_space(const PixelSource& source, const ColourConfig& config, const ImageRequest& request,
                   LightSubimage& light) {
@@ -26,10 +43,11 @@ void choose_space(const PixelSource& source, const ColourConfig& config, const I
   } else if (light.channels.xyz) {
     light.space = {"CIE XYZ", identity3<double>()};
     light.space_reason = "channels X, Y, Z, white D65";
+    if (source.format() == "openexr") light.conflicts = conflicts_with_xyz(subimage.colour);
   } else {
     const PixelType type = subimage.channels[light.channels.index[0]].type;
-    const FileColour found = colour_of_file(subimage.colour, source.file(), is_integer(type),
-                                            static_cast<int>(8 * size_of(type)), config);
+    const FileColour found = colour_of_file(tags_of(subimage, light.channels.kind), source.file(),
+                                            is_integer(type), static_cast<int>(8 * size_of(type)), config);
     light.space = found.space;
     light.space_reason = found.reason;
     light.conflicts = found.notes;
@@ -73,7 +91,8 @@ void keep_subimages(const PixelSource& source, std::vector<LightSubimage>& light
   std::set<int> parts, beauties;
   for (const LightSubimage& p : light) {
     const Subimage& subimage = source.subimages()[p.index];
-    const std::string name = subimage.name.empty() ? p.channels.layer : subimage.name;
+    std::string name = subimage.name.empty() ? p.channels.layer : subimage.name;
+    if (name.empty()) name = "(unnamed)";
     if (parts.insert(subimage.part).second) names.push_back(name);
     if (is_beauty_name(name)) beauties.insert(subimage.part);
   }

@@ -183,12 +183,12 @@ OutputSubimage light_output(const PixelSource& source, std::size_t index, const 
 }
 
 void note_losses(const PixelSource& source, ImageLayout& layout) {
-  if (layout.format == "openexr") return;
   const std::size_t left_out = source.subimages().size() - layout.outputs.size();
   if (left_out > 0)
     layout.notes.push_back(std::to_string(left_out) +
                            " more pictures (parts, resolutions, pages) are not written: " + layout.format +
                            " holds only the first here");
+  if (layout.format == "openexr") return;
   const OutputSubimage& out = layout.outputs.front();
   const Subimage& subimage = source.subimages()[out.source];
   const PixelType colour = subimage.channels.empty() ? PixelType::float32 : subimage.channels.front().type;

@@ -34,7 +34,8 @@ KnownNumbers known_numbers(const OperatorChoice& choice, const PixelSource& sour
     known.file_unit = hdr_reference_white;
     known.file_unit_source = describe(light.space.curve) + ": 1 is the reference white of BT.2408";
   }
-  if (known.file_unit && !(*known.file_unit > 0 && std::isfinite(*known.file_unit))) {
+  // The range of --white-luminance.
+  if (known.file_unit && !(*known.file_unit >= 1e-9 && *known.file_unit <= 1e9)) {
     notes.note(fmt::format("{}: {} of {} is no luminance, and ignored", source.file(), known.file_unit_source,
                            *known.file_unit));
     known.file_unit.reset();

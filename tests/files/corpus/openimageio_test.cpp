@@ -169,7 +169,7 @@ void jpeg_files(Tally& tally) {
 void hdr_files(Tally& tally) {
   const std::vector<std::pair<std::string, int>> orders = {
       {"-Y 2 +X 3", 1}, {"-Y 2 -X 3", 2}, {"+Y 2 -X 3", 3}, {"+Y 2 +X 3", 4},
-      {"+X 2 -Y 3", 5}, {"+X 2 +Y 3", 6}, {"-X 2 +Y 3", 7}, {"-X 2 -Y 3", 8}};
+      {"+X 2 -Y 3", 5}, {"-X 2 -Y 3", 6}, {"-X 2 +Y 3", 7}, {"+X 2 +Y 3", 8}};
   for (const auto& [order, orientation] : orders)
     for (const double exposure : {1.0, 0.25, 3.0})
       for (const bool primaries : {false, true}) {
