@@ -45,14 +45,16 @@ void find_alpha(const Layer& layer, ColourChannels& out) {
     if (const auto found = layer.find(alpha); found != layer.end() && !out.alpha) out.alpha = found->second;
 }
 
-/// RED, Green, blue; of names that differ in capitals alone the first in the alphabet.
+/// RED, Green, blue; none of those that differ in capitals alone.
 Layer in_small_letters(const Layer& layer) {
   Layer out;
+  std::set<std::string> twice;
   for (const auto& [name, index] : layer) {
     std::string small;
     for (const char c : name) small += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    out.emplace(small, index);
+    if (!out.emplace(small, index).second) twice.insert(small);
   }
+  for (const std::string& name : twice) out.erase(name);
   return out;
 }
 
@@ -70,6 +72,7 @@ ColourChannels colour_in(const std::string& name, const Layer& layer) {
     return take_of(layer, kind, names);
   };
   take(Kind::rgb, {"R", "G", "B"});
+  take(Kind::rgb, {"r", "g", "b"});
   const Layer small = in_small_letters(layer);
   take_of(small, Kind::rgb, {"r", "g", "b"});
   take_of(small, Kind::rgb, {"red", "green", "blue"});

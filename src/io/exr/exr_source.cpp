@@ -31,10 +31,15 @@ bool is_deep(const Imf::Header& header) {
   return header.hasType() && (header.type() == Imf::DEEPSCANLINE || header.type() == Imf::DEEPTILE);
 }
 
+/// Chroma at half the columns and rows, and no R, G, B beside it.
 bool is_luminance_chroma(const Imf::Header& header) {
   const Imf::ChannelList& channels = header.channels();
-  return !is_deep(header) && channels.findChannel("Y") && channels.findChannel("RY") &&
-         channels.findChannel("BY");
+  const auto is_halved = [&](const char* name) {
+    const Imf::Channel* const found = channels.findChannel(name);
+    return found && found->xSampling == 2 && found->ySampling == 2;
+  };
+  return !is_deep(header) && !channels.findChannel("R") && channels.findChannel("Y") && is_halved("RY") &&
+         is_halved("BY");
 }
 
 bool is_tiled(const Imf::Header& header) { return header.hasTileDescription(); }
