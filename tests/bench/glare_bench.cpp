@@ -222,7 +222,7 @@ int main(int argc, char** argv) {
   const bool avx2 = argc > 1 && std::string(argv[1]) == "avx2";
   if (avx2) hwy::SetSupportedTargetsForTest(HWY_AVX2 | HWY_SSE4 | HWY_SSSE3);
   std::printf("%s\n", avx2 ? "AVX2" : "the best instruction set here");
-  size(1920, 1080, 5);
-  size(3840, 2160, 5);
-  size(7680, 4320, 3);
+  size(1920, 1080, 20);
+  size(3840, 2160, 8);
+  size(7680, 4320, 5);
 }
