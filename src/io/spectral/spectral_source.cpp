@@ -185,7 +185,6 @@ SpectralWeights ExrSpectralSource::weights(const BandGrid& grid, const SpectralO
 void ExrSpectralSource::weigh(const SpectralOptions& options) {
   report_.kind = layout_.kind;
   report_.bands = layout_.bands.size();
-  report_.notes = layout_.notes;
   if (layout_.kind == SpectralKind::receptors) {
     for (const SpectralBand& band : layout_.bands) bands_.push_back(channels_[band.channel]);
     report_.notes.emplace_back(
@@ -240,6 +239,7 @@ void ExrSpectralSource::describe_subimage(const Limits& limits) {
   for (const Place& place : bands_)
     subimage.chunk_rows = std::max(subimage.chunk_rows, rows_compressed_together(header_of(place)));
   if (report_.kind != SpectralKind::reflective) subimage.white_luminance = 1.0;
+  subimage.notes = layout_.notes;  // what is left out is said, how the rest is read only when asked
   subimage.computed_bytes = signals_ * sizeof(float);
   band_type_ = std::all_of(bands_.begin(), bands_.end(), [](const Place& p) { return p.type == Imf::HALF; })
                    ? Imf::HALF

@@ -85,6 +85,18 @@ TEST(Brothers, channels_and_headers_of_openexr) {
   }
 }
 
+TEST(Brothers, what_of_a_spectrum_is_left_out_is_told) {
+  std::vector<FlatChannel> channels;
+  for (const char* set : {"S0", "S1", "S2", "S3", "T"})
+    for (const char* band : {".450,0nm", ".550,0nm", ".650,0nm"})
+      channels.push_back({set + std::string(band), 0.5f});
+  test::write_flat_exr(test::place("in.exr"), {{"", channels}});
+  const test::Run run = test::apply(test::place("in.exr"), test::place("out.exr"));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  for (const char* what : {"polarisation (S1 to S3) is ignored", "reflectance (T) is ignored"})
+    EXPECT_NE(run.err.find(what), std::string::npos) << run.err;
+}
+
 TEST(Brothers, renderers_names_of_data) {
   for (const char* name : {"Pz",
                            "hitPz",

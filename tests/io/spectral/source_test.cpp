@@ -226,7 +226,7 @@ TEST(SpectralSource, stokes_components_and_other_channels_do_not_disturb) {
   test::write_exr(folder / "image.exr", scene.image(channels));
   const auto source = open(folder / "image.exr");
   expect_truth("polarised", read_all(*source), bands, scene.centres, scene.step);
-  EXPECT_EQ(source->report().notes[0], "polarisation (S1 to S3) is ignored");
+  EXPECT_EQ(source->subimages()[0].notes, std::vector<std::string>{"polarisation (S1 to S3) is ignored"});
   std::vector<std::string> passed;
   for (const Channel& channel : source->subimages()[0].channels) passed.push_back(channel.name);
   EXPECT_EQ(passed, (std::vector<std::string>{"A", "depth.Z"}));
