@@ -107,6 +107,8 @@ TEST_F(Plugin, a_proxy_has_as_many_degrees_as_the_picture) {
   ASSERT_EQ(render(host_, *full, frame), ofx::ok);
   ASSERT_EQ(render(host_, *half, frame, 0, 0.5), ofx::ok);
   EXPECT_TRUE(same_pixels(a.target, b.target, frame));
+  host_.destroy(*full);
+  host_.destroy(*half);
 }
 
 TEST_F(Plugin, the_eye_follows_the_slider_in_time) {
@@ -133,6 +135,7 @@ TEST_F(Plugin, the_eye_follows_the_slider_in_time) {
   }
   EXPECT_FALSE(same_pixels(soon, at_once, frame));
   EXPECT_LT(sums[0], sums[1]) << "more is seen after two seconds than after one frame";
+  host_.destroy(*effect);
 }
 
 TEST_F(Plugin, threads_may_render_one_instance_at_once) {
@@ -153,6 +156,7 @@ TEST_F(Plugin, threads_may_render_one_instance_at_once) {
   };
   EXPECT_EQ(threads->multi_thread(work, 6, const_cast<std::function<void(int)>*>(&strip)), ofx::ok);
   EXPECT_TRUE(same_pixels(clips.target, expected, frame));
+  host_.destroy(*effect);
 }
 
 }  // namespace

@@ -16,6 +16,13 @@ namespace scotopic::test {
 
 constexpr int width = 389, height = 241;
 
+/// The program and the plug-in take five times as long then.
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool slowed_by_sanitizer = true;
+#else
+constexpr bool slowed_by_sanitizer = false;
+#endif
+
 /// Values of the panel, and what they are as the program's options.
 struct Setting {
   const char* name;
