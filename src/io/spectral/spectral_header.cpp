@@ -43,6 +43,10 @@ std::pair<BandUnit, std::string> band_unit_of(const std::string& units,
           fmt::format("radiance assumed to be per nm: emissiveUnits is only \"{}\"", units)};
 }
 
+bool states_radiance(const std::string& units) {
+  return units.empty() || (units.find('W') != units.npos && units.find("sr") != units.npos);
+}
+
 std::vector<Attribute> attributes_without_spectral_ones(const Imf::Header& header) {
   static const std::set<std::string> spectral = {"spectralLayoutVersion",
                                                  "emissiveUnits",

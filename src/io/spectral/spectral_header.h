@@ -19,6 +19,9 @@ std::optional<double> wavelength_attribute(const Imf::Header& header, const std:
 /// Empty if there is no such text.
 std::string text_attribute(const Imf::Header& header, const std::string& name);
 
+/// Whether emissiveUnits are watts per steradian and something else, or there are none.
+bool states_radiance(const std::string& emissive_units);
+
 /// What radiance is per, by the user's word, else by emissiveUnits; and why, as a sentence.
 std::pair<BandUnit, std::string> band_unit_of(const std::string& emissive_units,
                                               const std::optional<BandUnit>& chosen);

@@ -177,8 +177,12 @@ SpectralWeights ExrSpectralSource::weights(const BandGrid& grid, const SpectralO
     return reflective_weights(grid, options.sampling, named->curve());
   }
   const Imf::Header& any = header_of(channels_[layout_.bands.front().channel]);
-  const auto [unit, why] = band_unit_of(text_attribute(any, "emissiveUnits"), options.band_unit);
+  const std::string units = text_attribute(any, "emissiveUnits");
+  const auto [unit, why] = band_unit_of(units, options.band_unit);
   report_.notes.push_back(why);
+  if (!states_radiance(units) && !options.band_unit)
+    layout_.notes.push_back(
+        fmt::format("emissiveUnits \"{}\" is no radiance: taken as W/(m2 sr nm) (--band-radiance)", units));
   return emissive_weights(grid, options.sampling, unit);
 }
 

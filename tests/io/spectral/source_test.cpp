@@ -324,6 +324,27 @@ TEST(SpectralSource, units_are_decided_by_attribute_or_flag_and_said) {
   }
 }
 
+TEST(SpectralSource, units_that_are_no_radiance_are_said_unasked) {
+  const Scene scene;
+  const test::TemporaryFolder folder;
+  const auto notes_of = [&](const char* units, std::optional<BandUnit> flag) {
+    TestImage image = scene.image(scene.bands());
+    image.text_attributes = {{"emissiveUnits", units}};
+    test::write_exr(folder / "units.exr", image);
+    SpectralOptions options;
+    options.band_unit = flag;
+    return open(folder / "units.exr", options)->subimages().at(0).notes;
+  };
+  for (const char* units : {"", "W.m^-2.sr^-1", "W.m^-2.sr^-1.nm^-1", "W/(m2 sr nm)"})
+    EXPECT_TRUE(notes_of(units, {}).empty()) << units;
+  for (const char* units : {"cd.m^-2", "furlongs"}) {
+    const std::vector<std::string> notes = notes_of(units, {});
+    ASSERT_EQ(notes.size(), 1u) << units;
+    EXPECT_NE(notes[0].find(units), std::string::npos);
+    EXPECT_TRUE(notes_of(units, BandUnit::per_nm).empty()) << units;
+  }
+}
+
 TEST(SpectralSource, infrared_is_left_out_and_said) {
   Scene scene;
   const test::TemporaryFolder folder;
