@@ -90,12 +90,6 @@ constexpr std::string_view beauty_names[] = {"color", "colour", "c"};
 
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
-std::string lowered(std::string_view text) {
-  std::string out;
-  for (const char c : text) out += lower(c);
-  return out;
-}
-
 /// Runs of letters, cut where a capital follows a small one; each also with its neighbour ("motionVector").
 std::vector<std::string> words_of(std::string_view name) {
   std::vector<std::string> out;
@@ -125,6 +119,12 @@ bool has_word(std::span<const std::string_view> list, std::string_view name) {
 
 }  // namespace
 
+std::string lowered(std::string_view text) {
+  std::string out;
+  for (const char c : text) out += lower(c);
+  return out;
+}
+
 bool is_data_name(std::string_view name) { return has_word(data_words, name); }
 
 bool is_beauty_name(std::string_view name) {
@@ -148,15 +148,13 @@ bool looks_spectral(std::string_view channel) {
          std::all_of(last.begin(), last.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-std::string name_list(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 8;
+std::string name_list(const std::vector<std::string>& names, std::size_t most) {
   std::string out;
   for (std::size_t i = 0; i < std::min(most, names.size()); ++i) out += (i ? ", " : "") + names[i];
   return names.size() > most ? out + ", ... (" + std::to_string(names.size()) + " in all)" : out;
 }
 
 std::string channel_list(const std::vector<Subimage>& subimages) {
-  constexpr std::size_t most = 16;
   std::vector<std::string> names;
   for (const Subimage& subimage : subimages)
     for (const Channel& channel : subimage.channels) {
@@ -164,9 +162,7 @@ std::string channel_list(const std::vector<Subimage>& subimages) {
                                (channel.type == PixelType::uint32 ? " (uint: no light)" : "");
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
-  std::string out;
-  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) out += (i ? ", " : "") + names[i];
-  return names.size() > most ? out + ", ... (" + std::to_string(names.size()) + " in all)" : out;
+  return name_list(names, 16);
 }
 
 }  // namespace scotopic

@@ -50,8 +50,7 @@ Layer in_small_letters(const Layer& layer) {
   Layer out;
   std::set<std::string> twice;
   for (const auto& [name, index] : layer) {
-    std::string small;
-    for (const char c : name) small += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const std::string small = lowered(name);
     if (!out.emplace(small, index).second) twice.insert(small);
   }
   for (const std::string& name : twice) out.erase(name);

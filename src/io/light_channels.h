@@ -41,7 +41,10 @@ bool names_a_view(const Subimage& subimage, const std::string& layer);
 /// Names of all channels of all pictures, each once, at most 16: "R, G, B, diffuse.R, ... (40 in all)".
 std::string channel_list(const std::vector<Subimage>& subimages);
 
-/// "a, b, c", the first 8 and how many there are.
-std::string name_list(const std::vector<std::string>& names);
+/// "a, b, c", the first `most` and how many there are.
+std::string name_list(const std::vector<std::string>& names, std::size_t most = 8);
+
+/// ASCII capitals made small.
+std::string lowered(std::string_view text);
 
 }  // namespace scotopic

@@ -32,12 +32,12 @@ std::optional<Primaries> primaries_of(const Imf::Header& header) {
   return Primaries{xy(c.red), xy(c.green), xy(c.blue), xy(c.white)};
 }
 
+}  // namespace
+
 std::string text_attribute(const Imf::Header& header, const char* name) {
   const auto* found = header.findTypedAttribute<Imf::StringAttribute>(name);
   return found ? found->value() : "";
 }
-
-}  // namespace
 
 std::optional<double> number_attribute(const Imf::Header& header, const char* name) {
   if (const auto* found = header.findTypedAttribute<Imf::FloatAttribute>(name)) return found->value();

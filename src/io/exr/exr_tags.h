@@ -11,6 +11,9 @@
 
 namespace scotopic {
 
+/// Empty if there is no such text.
+std::string text_attribute(const Imf::Header& header, const char* name);
+
 /// A float, double or int.
 std::optional<double> number_attribute(const Imf::Header& header, const char* name);
 

@@ -94,10 +94,9 @@ double aspect_of(const Page& page) {
   return std::isfinite(aspect) && aspect > 0 ? aspect : 1.0;
 }
 
-ImageScan scan_directory(const TiffDirectories& tiff, const std::vector<Field>& fields,
+ImageScan scan_directory(const TiffDirectories& tiff, const std::vector<Field>& fields, const Page& page,
                          const std::string& file) {
   constexpr std::int64_t rgb = 2;
-  const Page page = page_of(tiff, fields);
   require_rgb(page.photometric, file);
   refuse_misread(page, file);
   ImageScan scan;
@@ -122,8 +121,9 @@ std::vector<ImageScan> scan_tiff(const std::string& file) {
   std::vector<ImageScan> pages;
   for (std::uint64_t at = tiff.first(), next = 0; at != 0 && pages.size() < most_pages; at = next) {
     const std::vector<Field> fields = tiff.fields(at, next);
-    if (pages.empty()) refuse_raw(page_of(tiff, fields), file);
-    pages.push_back(scan_directory(tiff, fields, file));
+    const Page page = page_of(tiff, fields);
+    if (pages.empty()) refuse_raw(page, file);
+    pages.push_back(scan_directory(tiff, fields, page, file));
     if (next <= at && pages.size() > 1024) break;  // goes round
   }
   return pages;

@@ -24,11 +24,6 @@ std::optional<double> wavelength_attribute(const Imf::Header& header, const std:
   return std::nullopt;
 }
 
-std::string text_attribute(const Imf::Header& header, const std::string& name) {
-  const auto* text = header.findTypedAttribute<Imf::StringAttribute>(name);
-  return text ? text->value() : std::string();
-}
-
 // The layout's own readers and every renderer known to write it (ART, pbrt, Mitsuba's scripts) hold values
 // per nm and write "W.m^-2.sr^-1".
 std::pair<BandUnit, std::string> band_unit_of(const std::string& units,

@@ -16,9 +16,6 @@ namespace scotopic {
 /// The attribute "<channel>.wavelength" in metres: a number, or text that begins with one.
 std::optional<double> wavelength_attribute(const Imf::Header& header, const std::string& channel);
 
-/// Empty if there is no such text.
-std::string text_attribute(const Imf::Header& header, const std::string& name);
-
 /// Whether emissiveUnits are watts per steradian and something else, or there are none.
 bool states_radiance(const std::string& emissive_units);
 

@@ -14,6 +14,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "io/exr/exr_tags.h"
 #include "io/exr/exr_headers.h"
 #include "io/exr/open_exr.h"
 #include "io/exr/exr_source.h"
@@ -179,10 +180,7 @@ SpectralWeights ExrSpectralSource::weights(const BandGrid& grid, const SpectralO
   const Imf::Header& any = header_of(channels_[layout_.bands.front().channel]);
   const std::string units = text_attribute(any, "emissiveUnits");
   const auto [unit, why] = band_unit_of(units, options.band_unit);
-  report_.notes.push_back(why);
-  if (!states_radiance(units) && !options.band_unit)
-    layout_.notes.push_back(
-        fmt::format("emissiveUnits \"{}\" is no radiance: taken as W/(m2 sr nm) (--band-radiance)", units));
+  (states_radiance(units) || options.band_unit ? report_.notes : layout_.notes).push_back(why);
   return emissive_weights(grid, options.sampling, unit);
 }
 

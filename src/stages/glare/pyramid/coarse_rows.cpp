@@ -21,12 +21,11 @@ void CoarseRows::advance(int plane, int from, int to, Scratch& scratch) {
 }
 
 void CoarseRows::row(int plane, int y, Scratch& scratch, float* out) {
-  const bool odd = (y & 1) != 0;
-  const int k = y >> 1, first = odd ? k : k - 1;
-  advance(plane, first, k + 1, scratch);
-  const float* const rows[3] = {at(plane, first), at(plane, first + 1), at(plane, k + 1)};
+  const DoubledFrom from(y);
+  advance(plane, from.rows[0], from.rows[2], scratch);
+  const float* const rows[3] = {at(plane, from.rows[0]), at(plane, from.rows[1]), at(plane, from.rows[2])};
   const Ladder& ladder = pyramid_.ladder();
-  double_rows(ladder.levels[1], ladder.levels[0], rows, odd, scratch, out);
+  double_rows(ladder.levels[1], ladder.levels[0], rows, from.odd, scratch, out);
 }
 
 }  // namespace scotopic::glare

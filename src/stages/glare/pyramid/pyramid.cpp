@@ -279,12 +279,11 @@ void Pyramid::ring_mask_row(int j, int ring, int y, Scratch& scratch, float* out
 }
 
 void Pyramid::doubled_row(int j, int plane, int y, Scratch& scratch, float* out) const {
-  const Planes& from = blurred(j + 1);
-  const bool odd = (y & 1) != 0;
-  const int k = y >> 1;
-  const float* const rows[3] = {from.row(plane, odd ? k : k - 1), from.row(plane, odd ? k + 1 : k),
-                                from.row(plane, k + 1)};
-  double_rows(level(j + 1), level(j), rows, odd, scratch, out);
+  const Planes& above = blurred(j + 1);
+  const DoubledFrom from(y);
+  const float* const rows[3] = {above.row(plane, from.rows[0]), above.row(plane, from.rows[1]),
+                                above.row(plane, from.rows[2])};
+  double_rows(level(j + 1), level(j), rows, from.odd, scratch, out);
 }
 
 }  // namespace scotopic::glare

@@ -90,8 +90,15 @@ class Pyramid {
   std::vector<std::uint8_t> of_ones_;  ///< of each row of level 1, whether ones_ stands for its mask
 };
 
-/// Row y of level `to` from three rows of the level above: from row y/2 on where y is odd (the third is not
+/// The three rows of the level above that row y is made from: from y/2 on where y is odd (the third is not
 /// read), else from the one before it.
+struct DoubledFrom {
+  explicit DoubledFrom(int y) : odd((y & 1) != 0), rows{(y >> 1) - !odd, (y >> 1) + odd, (y >> 1) + 1} {}
+  bool odd;
+  int rows[3];
+};
+
+/// Row y of level `to` from those rows.
 void double_rows(const Level& from, const Level& to, const float* const (&rows)[3], bool odd,
                  Scratch& scratch, float* out);
 
