@@ -1,7 +1,9 @@
 # Flags shared by everything built here; never exported to those who link the installed library.
 add_library(scotopic_compile INTERFACE)
 target_compile_options(scotopic_compile INTERFACE
-  -Wall -Wextra -Wconversion -Wshadow
+  -Wall -Wextra -Wconversion
+  # Of files compiled together, what one calls its own is no global of the other's.
+  $<IF:$<BOOL:${CMAKE_UNITY_BUILD}>,-Wshadow=local,-Wshadow>
   # One multiplication, one rounding: results must not depend on what the compiler fuses.
   -ffp-contract=off
   # GCC 12 sees overlaps in std::string that are not there (its bug 105651).
@@ -20,8 +22,23 @@ if(SCOTOPIC_SANITIZE)
     "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3|HWY_AVX3_DL)")
 endif()
 
-# scotopic_room(TARGET SOURCES...): adds the files of one room (folder) to its library.
+# scotopic_room(TARGET [GROUP NAME] SOURCES...): adds the files of one room (folder) to its library. With
+# CMAKE_UNITY_BUILD they, or those of the group, are compiled as one, so that their headers are read once.
 function(scotopic_room target)
-  list(TRANSFORM ARGN PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
-  target_sources(${target} PRIVATE ${ARGN})
+  cmake_parse_arguments(ARG "" "GROUP" "" ${ARGN})
+  if(NOT ARG_GROUP)
+    file(RELATIVE_PATH ARG_GROUP ${PROJECT_SOURCE_DIR}/src ${CMAKE_CURRENT_SOURCE_DIR})
+    string(REPLACE "/" "_" ARG_GROUP ${ARG_GROUP})
+  endif()
+  list(TRANSFORM ARG_UNPARSED_ARGUMENTS PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/" OUTPUT_VARIABLE files)
+  target_sources(${target} PRIVATE ${files})
+  set_source_files_properties(${files} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${ARG_GROUP})
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+endfunction()
+
+# scotopic_simd_room(TARGET SOURCES...): the same for files that include themselves once per SIMD target
+# (hwy/foreach_target.h): these are always compiled one by one.
+function(scotopic_simd_room target)
+  scotopic_room(${target} ${ARGN})
+  set_source_files_properties(${ARGN} TARGET_DIRECTORY ${target} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()

@@ -24,6 +24,26 @@ struct Fused : PixelStages<LaneNumbers<D>, stages, receptors> {
       : PixelStages<LaneNumbers<D>, stages, receptors>(LaneNumbers<D>(wide), wide.numbers, wide.on) {}
 };
 
+// The same by code that asks which stages are on; made once for all layouts of pixels, as most of this file's
+// code would be copies of it.
+template <class D>
+struct Asking {
+  using Vector = hn::Vec<D>;
+  using Seen = typename PixelStages<LaneNumbers<D>>::Seen;
+
+  template <StageSet stages>
+  HWY_NOINLINE static bool asked(const WideConstants<hn::TFromD<D>>& wide, const PixelIn<Vector>& p,
+                                 Seen& seen) {
+    return Fused<D, stages>(wide)(p, seen);
+  }
+  HWY_INLINE bool operator()(const PixelIn<Vector>& p, Seen& seen) const {
+    if (HWY_UNLIKELY(wide.on.rod_input)) return asked<StageSet::any>(wide, p, seen);
+    return asked<StageSet::usual>(wide, p, seen);
+  }
+
+  const WideConstants<hn::TFromD<D>>& wide;
+};
+
 // A byte of 0 or 1 per bit, eight at a time.
 HWY_INLINE void mark(std::uint8_t* touched, std::size_t lanes, std::uint64_t bits) {
   for (std::size_t i = 0; i < lanes; i += 8) {
@@ -56,13 +76,13 @@ std::uint64_t apply_exactly(const WideConstants<double>& exact, const Rows& rows
                             std::size_t lanes, std::uint64_t bits) {
   using D = Tag<double>;
   const D d;
-  const Fused<D> op(exact);
+  const Asking<D> op{exact};
   Results<Element<Rows>> out;
   std::uint64_t active = 0;
   for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
     auto alpha = hn::Zero(hn::Rebind<Element<Rows>, D>());
     const auto p = load_pixels<Receptors::maybe>(d, rows, at + i, alpha);
-    typename PixelStages<LaneNumbers<D>>::Seen seen;
+    typename Asking<D>::Seen seen;
     if (!op(p, seen)) continue;
     out.set(d, seen.rgb);
     const std::uint64_t here = bits >> i & lane_bits(d, seen.active);
@@ -104,15 +124,13 @@ HWY_INLINE void store_mixed(D d, const WideConstants<double>& exact, const Pixel
   if (touched) mark(touched + at, lanes, changed);
 }
 
-// One vector of pixels at `at`.
-template <StageSet stages, Receptors receptors, class D, class Rows>
-HWY_INLINE void apply_vector(const PixelStages<LaneNumbers<D>, stages, receptors>& op,
-                             const WideConstants<double>& exact, const Rows& rows, std::size_t at,
-                             std::uint8_t* touched) {
-  const D d;
+// One vector of pixels at `at`, by Fused or Asking.
+template <Receptors receptors, class D, class Op, class Rows>
+HWY_INLINE void apply_vector(D d, const Op& op, const WideConstants<double>& exact, const Rows& rows,
+                             std::size_t at, std::uint8_t* touched) {
   auto alpha = hn::Zero(hn::Rebind<Element<Rows>, D>());
   const auto p = load_pixels<receptors>(d, rows, at, alpha);
-  typename PixelStages<LaneNumbers<D>, stages, receptors>::Seen seen;
+  typename Op::Seen seen;
   if (!op(p, seen)) {
     if (touched) std::memset(touched + at, 0, hn::Lanes(d));
     return;
@@ -124,17 +142,11 @@ HWY_INLINE void apply_vector(const PixelStages<LaneNumbers<D>, stages, receptors
   store_pixels(d, seen.rgb, rows, at, alpha);
 }
 
-// The same by code that asks which stages are on.
-template <StageSet stages, typename T, class Rows>
-HWY_NOINLINE void apply_asking(const WideConstants<T>& main, const WideConstants<double>& exact,
-                               const Rows& rows, std::size_t at, std::uint8_t* touched) {
-  apply_vector(Fused<Tag<T>, stages>(main), exact, rows, at, touched);
-}
 template <typename T, class Rows>
 HWY_INLINE void apply_any(const WideConstants<T>& main, const WideConstants<double>& exact, const Rows& rows,
                           std::size_t at, std::uint8_t* touched) {
-  if (HWY_UNLIKELY(main.on.rod_input)) return apply_asking<StageSet::any>(main, exact, rows, at, touched);
-  apply_asking<StageSet::usual>(main, exact, rows, at, touched);
+  using D = Tag<T>;
+  apply_vector<Receptors::maybe>(D(), Asking<D>{main}, exact, rows, at, touched);
 }
 
 // Two vectors of pixels, side by side: either waits for its own results alone.
@@ -199,7 +211,7 @@ void apply_stages(const WideConstants<T>& main, const WideConstants<double>& exa
     for (; at + lanes <= rows.count; at += lanes) apply_any(main, exact, rows, at, touched);
   } else {
     const Fused<D, stages, receptors> op(main);
-    for (; at + lanes <= rows.count; at += lanes) apply_vector(op, exact, rows, at, touched);
+    for (; at + lanes <= rows.count; at += lanes) apply_vector<receptors>(D(), op, exact, rows, at, touched);
   }
   for (; at < rows.count; at += lanes)
     apply_part(main, exact, rows, at, std::min(lanes, rows.count - at), touched);

@@ -1,5 +1,5 @@
 // scotopic VERB IN... -o OUT [options]
-#include "cli/program.h"
+#include "cli/verbs/verbs.h"
 
 int main(int argc, char** argv) {
   using namespace scotopic;

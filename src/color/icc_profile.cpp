@@ -17,8 +17,6 @@
 namespace scotopic {
 namespace {
 
-constexpr float farthest = 1e4f;
-
 cmsUInt32Number lcms_intent(RenderingIntent intent) {
   switch (intent) {
     case RenderingIntent::perceptual:
@@ -40,9 +38,6 @@ std::string signature(std::uint32_t s) {
     if (const char c = static_cast<char>(s >> shift & 0xffu); c > ' ' && c < '\x7f') out += c;
   return out;
 }
-
-/// A component as a number that tables can be entered with.
-double tame(float x) { return std::isfinite(x) ? double{std::clamp(x, -farthest, farthest)} : 0.0; }
 
 }  // namespace
 

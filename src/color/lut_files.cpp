@@ -25,7 +25,6 @@ OCIO::TransformDirection turned(OCIO::TransformDirection direction, OCIO::Transf
 }
 
 constexpr auto forward = OCIO::TRANSFORM_DIR_FORWARD;
-constexpr auto inverse = OCIO::TRANSFORM_DIR_INVERSE;
 
 class Walk {
  public:
@@ -95,7 +94,7 @@ class Walk {
       if (const auto own = found->getTransform(direction))
         transform(own, forward);
       else
-        transform(found->getTransform(other), inverse);
+        transform(found->getTransform(other), OCIO::TRANSFORM_DIR_INVERSE);
     });
   }
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_digits = 9;
 
-[[noreturn]] void fail(const std::string& text, const std::string& why) {
+[[noreturn]] void fail_frames(const std::string& text, const std::string& why) {
   throw Error(ExitCode::usage, "", "--frames: '" + text + "' " + why);
 }
 
@@ -25,8 +25,8 @@ int take_number(std::string_view& rest, const std::string& text) {
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
   const auto length = static_cast<std::size_t>(end - rest.data());
   if (error == std::errc::result_out_of_range || length > most_digits + 1)
-    fail(text, "has a number of too many digits");
-  if (error != std::errc()) fail(text, takes);
+    fail_frames(text, "has a number of too many digits");
+  if (error != std::errc()) fail_frames(text, takes);
   rest.remove_prefix(length);
   return value;
 }
@@ -53,14 +53,14 @@ std::vector<int> parse_frames(const std::string& text) {
     const bool range = take('-', rest);
     const int last = range ? take_number(rest, text) : first;
     const int step = range && take('x', rest) ? take_number(rest, text) : 1;
-    if (last < first) fail(text, "has a range that runs backwards");
-    if (step < 1) fail(text, "has a step below 1");
+    if (last < first) fail_frames(text, "has a range that runs backwards");
+    if (step < 1) fail_frames(text, "has a step below 1");
     for (std::int64_t frame = first; frame <= last; frame += step) {
       if (known.insert(static_cast<int>(frame)).second) frames.push_back(static_cast<int>(frame));
-      if (frames.size() > max_frames) fail(text, fmt::format("names more than {} frames", max_frames));
+      if (frames.size() > max_frames) fail_frames(text, fmt::format("names more than {} frames", max_frames));
     }
   } while (take(',', rest));
-  if (!rest.empty()) fail(text, "is not a list of frames, like 1-240, 1-240x2 or 1-10,20");
+  if (!rest.empty()) fail_frames(text, "is not a list of frames, like 1-240, 1-240x2 or 1-10,20");
   return frames;
 }
 

@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include "io/pixels/pixel_type.h"
 #include "color/file/colour_tags.h"
+#include "io/pixels/pixel_type.h"
 
 namespace scotopic {
 
@@ -93,6 +93,9 @@ struct Subimage {
   /// What reading it changes or leaves out, one sentence each.
   std::vector<std::string> notes;
   std::optional<double> lmsr_unit;  ///< attribute scotopic:lmsrUnit, cd/m2 (docs: image/apply_image.h)
+
+  /// Not one of the smaller resolutions of a tiled EXR.
+  bool is_full_resolution() const noexcept { return level_x == 0 && level_y == 0; }
 };
 
 /// A pixel's aspect as a header states it; 1 for what is none, or beyond 0.1 to 10.

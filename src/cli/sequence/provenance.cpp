@@ -20,23 +20,23 @@ namespace {
 
 // Of verbs that write images. What they stand for otherwise is in the hash in other words, or changes no
 // pixel.
-constexpr std::array<std::string_view, 17> without_effect = {"help",
-                                                             "verbose",
-                                                             "quiet",
-                                                             "json",
-                                                             "threads",
-                                                             "frames",
-                                                             "frames-at-once",
-                                                             "skip-existing",
-                                                             "continue-on-error",
-                                                             "adaptation-from",
-                                                             "output",
-                                                             "input",
-                                                             "max-side",
-                                                             "max-pixels",
-                                                             "max-channels",
-                                                             "max-band-bytes",
-                                                             "version"};
+constexpr std::array<std::string_view, 17> unstamped_options = {"help",
+                                                                "verbose",
+                                                                "quiet",
+                                                                "json",
+                                                                "threads",
+                                                                "frames",
+                                                                "frames-at-once",
+                                                                "skip-existing",
+                                                                "continue-on-error",
+                                                                "adaptation-from",
+                                                                "output",
+                                                                "input",
+                                                                "max-side",
+                                                                "max-pixels",
+                                                                "max-channels",
+                                                                "max-band-bytes",
+                                                                "version"};
 
 std::string name_of(const CLI::Option& option) {
   if (!option.get_lnames().empty()) return option.get_lnames().front();
@@ -91,7 +91,7 @@ std::vector<std::string> typed_options(const CLI::App& verb) {
   for (const CLI::Option* option : verb.get_options()) {
     const std::string name = name_of(*option);
     if (option->count() == 0 ||
-        std::find(without_effect.begin(), without_effect.end(), name) != without_effect.end())
+        std::find(unstamped_options.begin(), unstamped_options.end(), name) != unstamped_options.end())
       continue;
     for (const std::string& value : option->results()) typed.push_back(name + "=" + value);
   }

@@ -13,12 +13,8 @@
 namespace scotopic {
 namespace {
 
-constexpr float farthest = 1e4f;
 constexpr std::size_t piece = 256;
 constexpr cmsUInt32Number flags = cmsFLAGS_NOCACHE | cmsFLAGS_NOOPTIMIZE;
-
-/// A component as a number that tables can be entered with.
-float tame(float x) { return std::isfinite(x) ? std::clamp(x, -farthest, farthest) : 0.0f; }
 
 const Matrix3<double>& d65_from_d50() {
   static const Matrix3<double> m = bradford(icc_d50, white_d65);

@@ -10,7 +10,7 @@
 namespace scotopic {
 namespace {
 
-using Bytes = std::span<const std::byte>;
+using IccBytes = std::span<const std::byte>;
 
 constexpr std::size_t header_size = 128;
 constexpr std::size_t entry_size = 12;
@@ -18,15 +18,15 @@ constexpr std::uint32_t most_tags = 100;  // LittleCMS reads no more
 constexpr std::uint64_t most_channels = 15;
 
 /// Big-endian numbers; 0 beyond the end, so that every test after it fails.
-std::uint32_t number(Bytes bytes, std::size_t at, std::size_t width) {
+std::uint32_t number(IccBytes bytes, std::size_t at, std::size_t width) {
   if (at + width > bytes.size()) return 0;
   std::uint32_t out = 0;
   for (std::size_t i = 0; i < width; ++i) out = out << 8 | std::to_integer<std::uint32_t>(bytes[at + i]);
   return out;
 }
-std::uint32_t u8(Bytes bytes, std::size_t at) { return number(bytes, at, 1); }
-std::uint32_t u16(Bytes bytes, std::size_t at) { return number(bytes, at, 2); }
-std::uint32_t u32(Bytes bytes, std::size_t at) { return number(bytes, at, 4); }
+std::uint32_t u8(IccBytes bytes, std::size_t at) { return number(bytes, at, 1); }
+std::uint32_t u16(IccBytes bytes, std::size_t at) { return number(bytes, at, 2); }
+std::uint32_t u32(IccBytes bytes, std::size_t at) { return number(bytes, at, 4); }
 
 constexpr std::uint32_t sign(const char (&name)[5]) {
   std::uint32_t out = 0;
@@ -55,7 +55,7 @@ std::uint64_t power(std::uint64_t base, std::uint64_t exponent, std::uint64_t mo
 }
 
 /// Bytes of a curve that begins here; more than there are where it does not fit.
-std::uint64_t curve_bytes(Bytes curve) {
+std::uint64_t curve_bytes(IccBytes curve) {
   static constexpr std::size_t parameters[] = {1, 3, 4, 5, 7};
   const std::uint32_t type = u32(curve, 0);
   if (type == sign("curv") && curve.size() >= 12) return 12 + 2 * std::uint64_t{u32(curve, 8)};
@@ -64,10 +64,10 @@ std::uint64_t curve_bytes(Bytes curve) {
   return curve.size() + 1;
 }
 
-bool fits_curve(Bytes tag) { return curve_bytes(tag) <= tag.size(); }
+bool fits_curve(IccBytes tag) { return curve_bytes(tag) <= tag.size(); }
 
 /// One after the other, each on a multiple of four.
-bool fits_curves(Bytes tag, std::uint32_t offset, std::uint64_t count) {
+bool fits_curves(IccBytes tag, std::uint32_t offset, std::uint64_t count) {
   std::uint64_t at = offset;
   for (std::uint64_t i = 0; i < count; ++i) {
     if (at >= tag.size()) return false;
@@ -79,7 +79,7 @@ bool fits_curves(Bytes tag, std::uint32_t offset, std::uint64_t count) {
 }
 
 /// lut8Type and lut16Type: ICC.1, 10.10 and 10.11.
-bool fits_table(Bytes tag, std::uint64_t width) {
+bool fits_table(IccBytes tag, std::uint64_t width) {
   const std::uint64_t in = u8(tag, 8), out = u8(tag, 9), grid = u8(tag, 10);
   const bool wide = width == 2;
   const std::size_t start = wide ? 52 : 48;
@@ -92,7 +92,7 @@ bool fits_table(Bytes tag, std::uint64_t width) {
   return nodes <= room && width * (in * entries_in + nodes + out * entries_out) <= room;
 }
 
-bool fits_lattice(Bytes tag, std::uint32_t offset, std::uint64_t in, std::uint64_t out) {
+bool fits_lattice(IccBytes tag, std::uint32_t offset, std::uint64_t in, std::uint64_t out) {
   if (offset > tag.size() || tag.size() - offset < 20) return false;
   const std::uint64_t room = tag.size() - offset - 20;
   const std::uint64_t width = u8(tag, offset + 16);
@@ -105,7 +105,7 @@ bool fits_lattice(Bytes tag, std::uint32_t offset, std::uint64_t in, std::uint64
 }
 
 /// lutAToBType and lutBToAType: ICC.1, 10.12 and 10.13. `forward`: A curves take the inputs.
-bool fits_stages(Bytes tag, bool forward) {
+bool fits_stages(IccBytes tag, bool forward) {
   const std::uint64_t in = u8(tag, 8), out = u8(tag, 9);
   if (tag.size() < 32 || in == 0 || out == 0 || in > most_channels || out > most_channels) return false;
   const std::uint32_t b = u32(tag, 12), matrix = u32(tag, 16), m = u32(tag, 20), clut = u32(tag, 24),
@@ -118,7 +118,7 @@ bool fits_stages(Bytes tag, bool forward) {
 }
 
 /// multiLocalizedUnicodeType: ICC.1, 10.15.
-bool fits_texts(Bytes tag) {
+bool fits_texts(IccBytes tag) {
   const std::uint64_t count = u32(tag, 8);
   if (tag.size() < 16 || u32(tag, 12) != 12 || count > (tag.size() - 16) / 12) return count == 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -129,7 +129,7 @@ bool fits_texts(Bytes tag) {
 }
 
 /// profileSequenceDescType and others that only nest: LittleCMS goes by the tag's end.
-bool fits(Bytes tag) {
+bool fits(IccBytes tag) {
   switch (u32(tag, 0)) {
     case sign("curv"):
     case sign("para"):
@@ -169,7 +169,7 @@ bool overlap(std::vector<Entry> entries) {
   return false;
 }
 
-std::string fault_of_tags(Bytes profile) {
+std::string fault_of_tags(IccBytes profile) {
   const std::uint32_t count = u32(profile, header_size);
   const std::uint64_t first = header_size + 4 + std::uint64_t{entry_size} * count;
   if (count > most_tags || first > profile.size())
@@ -192,9 +192,9 @@ std::string fault_of_tags(Bytes profile) {
 
 }  // namespace
 
-bool is_icc(Bytes bytes) { return u32(bytes, 36) == sign("acsp"); }
+bool is_icc(IccBytes bytes) { return u32(bytes, 36) == sign("acsp"); }
 
-std::string fault_of_icc(Bytes profile) {
+std::string fault_of_icc(IccBytes profile) {
   if (profile.size() > most_icc_bytes) return "it is larger than any profile";
   if (profile.size() < header_size + 4 || !is_icc(profile)) return "it has no ICC header";
   const std::uint32_t size = u32(profile, 0);

@@ -1,6 +1,8 @@
 // ICC profiles looked through before a library parses them: what they say of themselves must fit into them.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -17,5 +19,8 @@ std::string fault_of_icc(std::span<const std::byte> profile);
 
 /// Whether bytes have the signature of an ICC profile, "acsp" at 36.
 bool is_icc(std::span<const std::byte> bytes);
+
+/// A component as a number that a profile's tables can be entered with: within +-1e4, and 0 for what is none.
+inline float tame(float x) noexcept { return std::isfinite(x) ? std::clamp(x, -1e4f, 1e4f) : 0.0f; }
 
 }  // namespace scotopic

@@ -12,7 +12,7 @@ namespace {
 using Bytes = std::vector<std::byte>;
 using Field = TiffDirectories::Field;
 
-enum Tag : std::uint64_t {
+enum ExifTag : std::uint64_t {
   orientation = 274,
   transfer_function = 301,
   white_point = 318,

@@ -27,9 +27,9 @@ std::span<const std::byte> after(const Bytes& segment, std::string_view head) {
 
 using namespace std::string_view_literals;
 
-constexpr std::string_view jfif = "JFIF\0"sv, exif = "Exif\0\0"sv, xmp = "http://ns.adobe.com/xap/1.0/\0"sv,
-                           icc = "ICC_PROFILE\0"sv, gain_map = "urn:iso:std:iso:ts:21496:-1\0"sv,
-                           multi_picture = "MPF\0"sv;
+constexpr std::string_view jfif_head = "JFIF\0"sv, exif_head = "Exif\0\0"sv,
+                           xmp_head = "http://ns.adobe.com/xap/1.0/\0"sv, icc_head = "ICC_PROFILE\0"sv,
+                           gain_map_head = "urn:iso:std:iso:ts:21496:-1\0"sv, multi_picture_head = "MPF\0"sv;
 
 /// Frame headers: all SOF but those of tables (DHT, JPG, DAC).
 bool is_frame(std::uint64_t marker) {
@@ -66,8 +66,8 @@ void each_segment(FileBytes& bytes, std::uint64_t at, Use use) {
 bool tells_of_gain_map(FileBytes& bytes, std::uint64_t start, const std::string& file) {
   ImageScan scan;
   each_segment(bytes, start, [&](std::uint64_t marker, std::uint64_t, const Bytes& segment) {
-    if (marker == app1 && begins(segment, xmp)) check_xmp(after(segment, xmp), file, scan);
-    if (marker == app2 && begins(segment, gain_map)) scan.gain_map = true;
+    if (marker == app1 && begins(segment, xmp_head)) check_xmp(after(segment, xmp_head), file, scan);
+    if (marker == app2 && begins(segment, gain_map_head)) scan.gain_map = true;
   });
   return scan.gain_map;
 }
@@ -75,16 +75,16 @@ bool tells_of_gain_map(FileBytes& bytes, std::uint64_t start, const std::string&
 /// Images behind the first (CIPA DC-007); their offsets count from behind the identifier.
 void scan_multi_picture(FileBytes& bytes, const Bytes& segment, std::uint64_t at, const std::string& file,
                         ImageScan& scan) {
-  for (const std::uint64_t offset : offsets_of_images(after(segment, multi_picture))) {
+  for (const std::uint64_t offset : offsets_of_images(after(segment, multi_picture_head))) {
     if (++scan.images_behind > most_images) break;
-    if (tells_of_gain_map(bytes, at + multi_picture.size() + offset, file)) scan.gain_map = true;
+    if (tells_of_gain_map(bytes, at + multi_picture_head.size() + offset, file)) scan.gain_map = true;
   }
 }
 
 /// JFIF 1.02: version, units, and how many pixels there are to one, across and down.
-double aspect_of(const Bytes& segment) {
-  const auto across = static_cast<double>(number_at(segment, jfif.size() + 3, 2, true));
-  const auto down = static_cast<double>(number_at(segment, jfif.size() + 5, 2, true));
+double density_aspect(const Bytes& segment) {
+  const auto across = static_cast<double>(number_at(segment, jfif_head.size() + 3, 2, true));
+  const auto down = static_cast<double>(number_at(segment, jfif_head.size() + 5, 2, true));
   return across > 0 && down > 0 ? down / across : 1.0;
 }
 
@@ -97,14 +97,15 @@ ImageScan scan_jpeg(const std::string& file) {
   each_segment(bytes, 0, [&](std::uint64_t marker, std::uint64_t at, const Bytes& segment) {
     if (is_frame(marker) && number_at(segment, 5, 1, true) == 4)
       throw Error(ExitCode::input, file, "holds CMYK, not RGB: convert it first, with its profile");
-    if (marker == app0 && begins(segment, jfif)) scan.pixel_aspect = aspect_of(segment);
-    if (marker == app1 && begins(segment, exif)) read_exif(after(segment, exif), scan);
-    if (marker == app1 && begins(segment, xmp)) check_xmp(after(segment, xmp), file, scan);
-    if (marker == app2 && begins(segment, gain_map)) scan.gain_map = true;
-    if (marker == app2 && begins(segment, multi_picture)) scan_multi_picture(bytes, segment, at, file, scan);
-    if (marker == app2 && begins(segment, icc) && segment.size() >= icc.size() + 2)
-      profile.emplace(number_at(segment, icc.size(), 1, true),
-                      Bytes(segment.begin() + icc.size() + 2, segment.end()));
+    if (marker == app0 && begins(segment, jfif_head)) scan.pixel_aspect = density_aspect(segment);
+    if (marker == app1 && begins(segment, exif_head)) read_exif(after(segment, exif_head), scan);
+    if (marker == app1 && begins(segment, xmp_head)) check_xmp(after(segment, xmp_head), file, scan);
+    if (marker == app2 && begins(segment, gain_map_head)) scan.gain_map = true;
+    if (marker == app2 && begins(segment, multi_picture_head))
+      scan_multi_picture(bytes, segment, at, file, scan);
+    if (marker == app2 && begins(segment, icc_head) && segment.size() >= icc_head.size() + 2)
+      profile.emplace(number_at(segment, icc_head.size(), 1, true),
+                      Bytes(segment.begin() + icc_head.size() + 2, segment.end()));
   });
   if (!profile.empty()) keep_profile(joined(profile), file, scan);
   return scan;

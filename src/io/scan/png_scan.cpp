@@ -77,7 +77,7 @@ void read_text(const std::string& type, const Bytes& chunk, const std::string& f
 }
 
 /// Pixels per unit, across and down: where they differ, pixels are no squares.
-double aspect_of(const Bytes& chunk) {
+double phys_aspect(const Bytes& chunk) {
   const auto across = static_cast<double>(number_at(chunk, 0, 4, true));
   const auto down = static_cast<double>(number_at(chunk, 4, 4, true));
   return across > 0 && down > 0 ? down / across : 1.0;
@@ -102,7 +102,7 @@ void read_fixed_chunk(const std::string& type, const Bytes& chunk, ImageScan& sc
   } else if (type == "sRGB") {
     tags.srgb = true;
   } else if (type == "pHYs") {
-    scan.pixel_aspect = aspect_of(chunk);
+    scan.pixel_aspect = phys_aspect(chunk);
   } else if (type == "acTL" && first > 1) {
     scan.notes.push_back("is an animation: one of its " + std::to_string(first) + " frames is read");
   }

@@ -15,7 +15,7 @@ using Field = TiffDirectories::Field;
 
 constexpr std::uint64_t most_pages = 65536;
 
-enum Tag : std::uint64_t {
+enum TiffTag : std::uint64_t {
   subfile_type = 254,
   bits_per_sample = 258,
   photometric = 262,
@@ -89,7 +89,7 @@ void refuse_misread(const Page& page, const std::string& file) {
 }
 
 /// Width over height of a pixel, from how many there are to a length.
-double aspect_of(const Page& page) {
+double page_aspect(const Page& page) {
   const double aspect = page.y_resolution / page.x_resolution;
   return std::isfinite(aspect) && aspect > 0 ? aspect : 1.0;
 }
@@ -100,7 +100,7 @@ ImageScan scan_directory(const TiffDirectories& tiff, const std::vector<Field>& 
   require_rgb(page.photometric, file);
   refuse_misread(page, file);
   ImageScan scan;
-  scan.pixel_aspect = aspect_of(page);
+  scan.pixel_aspect = page_aspect(page);
   read_colorimetry(tiff, fields, static_cast<std::uint64_t>(page.bits), scan);
   for (const Field& field : fields) {
     if (field.tag == xmp) check_xmp(tiff.bytes(field), file, scan);

@@ -30,7 +30,7 @@ constexpr std::array si_prefixes = {
 constexpr std::array<std::string_view, 5> sets = {"S0", "S1", "S2", "S3", "T"};
 constexpr std::size_t reflectance = 4;
 
-[[noreturn]] void fail(const std::string& channel, const std::string& what) {
+[[noreturn]] void fail_channel(const std::string& channel, const std::string& what) {
   throw Error(ExitCode::input, "", fmt::format("channel \"{}\": {}", channel, what));
 }
 
@@ -56,17 +56,18 @@ double parse_number(std::string_view text, const std::string& channel) {
   std::string digits(text);
   const auto commas = std::count(digits.begin(), digits.end(), ',');
   const auto points = std::count(digits.begin(), digits.end(), '.');
-  if (std::none_of(digits.begin(), digits.end(), is_digit)) fail(channel, "has no number");
-  if (commas > 0 && points > 0) fail(channel, "mixes decimal comma and decimal point");
-  if (points > 0) fail(channel, "has a decimal point where the layout has a comma");
-  if (commas > 1) fail(channel, "has more than one decimal comma");
-  if (digits.front() == '-') fail(channel, "has a negative wavelength");
+  if (std::none_of(digits.begin(), digits.end(), is_digit)) fail_channel(channel, "has no number");
+  if (commas > 0 && points > 0) fail_channel(channel, "mixes decimal comma and decimal point");
+  if (points > 0) fail_channel(channel, "has a decimal point where the layout has a comma");
+  if (commas > 1) fail_channel(channel, "has more than one decimal comma");
+  if (digits.front() == '-') fail_channel(channel, "has a negative wavelength");
   std::replace(digits.begin(), digits.end(), ',', '.');
   double value = 0.0;
   const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::result_out_of_range || !std::isfinite(value))
-    fail(channel, "has a number out of range");
-  if (error != std::errc() || stop != digits.data() + digits.size()) fail(channel, "has a malformed number");
+    fail_channel(channel, "has a number out of range");
+  if (error != std::errc() || stop != digits.data() + digits.size())
+    fail_channel(channel, "has a malformed number");
   return value;
 }
 
@@ -113,8 +114,8 @@ void sort_bands(std::vector<SpectralBand>& bands, std::span<const ChannelName> c
   for (std::size_t i = 1; i < bands.size(); ++i)
     // Names carry at most seven digits or so: closer bands than that are one band named twice.
     if (bands[i].nm - bands[i - 1].nm <= 1e-7 * bands[i].nm)
-      fail(channels[bands[i].channel].name,
-           fmt::format("is the same band as channel \"{}\"", channels[bands[i - 1].channel].name));
+      fail_channel(channels[bands[i].channel].name,
+                   fmt::format("is the same band as channel \"{}\"", channels[bands[i - 1].channel].name));
 }
 
 bool same_grid(const std::vector<SpectralBand>& a, const std::vector<SpectralBand>& b) {
@@ -157,9 +158,10 @@ SpectralLayout ocean_layout(std::span<const ChannelName> channels) {
   SpectralLayout layout;
   for (std::size_t i = 0; i < channels.size(); ++i) {
     if (!is_ocean_name(channels[i].name)) continue;
-    if (!channels[i].wavelength_m) fail(channels[i].name, "has no attribute with its wavelength");
+    if (!channels[i].wavelength_m) fail_channel(channels[i].name, "has no attribute with its wavelength");
     const double nm = *channels[i].wavelength_m * nm_per_m;
-    if (!(std::isfinite(nm) && nm > 0.0)) fail(channels[i].name, "has a wavelength that is not positive");
+    if (!(std::isfinite(nm) && nm > 0.0))
+      fail_channel(channels[i].name, "has a wavelength that is not positive");
     layout.bands.push_back({i, nm});
   }
   sort_bands(layout.bands, channels);
@@ -197,12 +199,13 @@ double wavelength_from_text(std::string_view text, const std::string& channel) {
   const std::string_view unit = text.substr(length);
   const bool hertz = unit.size() >= 2 && unit.substr(unit.size() - 2) == "Hz";
   const bool metre = !unit.empty() && unit.back() == 'm';
-  if (!hertz && !metre) fail(channel, "has neither a wavelength in m nor a frequency in Hz");
+  if (!hertz && !metre) fail_channel(channel, "has neither a wavelength in m nor a frequency in Hz");
   const auto factor = factor_of_prefix(unit.substr(0, unit.size() - (hertz ? 2 : 1)));
-  if (!factor) fail(channel, "has an unknown unit");
+  if (!factor) fail_channel(channel, "has an unknown unit");
   const double value = parse_number(text.substr(0, length), channel) * *factor;
   const double nm = value == 0 ? 0 : nm_per_m * (hertz ? speed_of_light / value : value);
-  if (!(std::isfinite(nm) && nm > 0.0)) fail(channel, "has a wavelength that is not positive and finite");
+  if (!(std::isfinite(nm) && nm > 0.0))
+    fail_channel(channel, "has a wavelength that is not positive and finite");
   return nm;
 }
 

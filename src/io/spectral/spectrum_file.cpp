@@ -22,7 +22,7 @@ struct Row {
   double nm, power;
 };
 
-[[noreturn]] void fail(const std::string& file, std::size_t line, const std::string& what) {
+[[noreturn]] void fail_line(const std::string& file, std::size_t line, const std::string& what) {
   throw Error(ExitCode::input, file, fmt::format("line {}: {}", line, what));
 }
 
@@ -46,11 +46,12 @@ std::vector<double> numbers(std::string_view line) {
 
 void check_row(const std::vector<Row>& rows, const std::vector<double>& cells, const std::string& file,
                std::size_t line) {
-  if (cells.size() != 2) fail(file, line, "not two numbers, wavelength in nm and power");
+  if (cells.size() != 2) fail_line(file, line, "not two numbers, wavelength in nm and power");
   if (!std::isfinite(cells[0]) || !(cells[0] > 0.0))
-    fail(file, line, "the wavelength is not a positive number");
-  if (!std::isfinite(cells[1]) || cells[1] < 0.0) fail(file, line, "the power is not a number of 0 or more");
-  if (!rows.empty() && !(cells[0] > rows.back().nm)) fail(file, line, "wavelengths do not ascend");
+    fail_line(file, line, "the wavelength is not a positive number");
+  if (!std::isfinite(cells[1]) || cells[1] < 0.0)
+    fail_line(file, line, "the power is not a number of 0 or more");
+  if (!rows.empty() && !(cells[0] > rows.back().nm)) fail_line(file, line, "wavelengths do not ascend");
 }
 
 std::vector<Row> parse(std::string_view text, const std::string& file) {

@@ -7,16 +7,16 @@
 #include <cstring>
 #include <sstream>
 
-#include "looks/verify/measure.h"
-#include "looks/chain/ocio_chain.h"
 #include "base/error.h"
+#include "looks/chain/ocio_chain.h"
+#include "looks/verify/measure.h"
 
 namespace OCIO = OCIO_NAMESPACE;
 
 namespace scotopic {
 namespace {
 
-constexpr std::size_t colours_compared = 4096;
+constexpr std::size_t colours_read_back = 4096;
 
 [[noreturn]] void fail(const std::string& path, std::string what) {
   std::replace(what.begin(), what.end(), '\n', ' ');
@@ -37,7 +37,7 @@ OCIO::ConstProcessorRcPtr read(const std::string& file, const std::string& path)
 }
 
 Colours probes() {
-  Colours out = stop_colours(colours_compared, identity3<double>(), identity3<double>());
+  Colours out = stop_colours(colours_read_back, identity3<double>(), identity3<double>());
   for (const float r : {0.f, 1.f, -1.f, 1e-30f, 65504.f, 1e30f})
     for (const float g : {0.f, .25f, 1.f, 2.f}) {
       out.r.push_back(r);

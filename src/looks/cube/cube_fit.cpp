@@ -13,7 +13,7 @@
 namespace scotopic {
 namespace {
 
-using Values = std::vector<double>;
+using NodeValues = std::vector<double>;
 
 /// One colour of the fit.
 struct FitPoint {
@@ -43,7 +43,7 @@ void add_points(std::vector<FitPoint>& points, const CubeGoal& goal, std::size_t
 /// The sum over colours and readings of weight * difference^2, as a quadratic form of the nodes.
 class Misfit {
  public:
-  Misfit(const CubeGoal& goal, std::size_t edge, const std::vector<FitColours>& sets, const Values& held,
+  Misfit(const CubeGoal& goal, std::size_t edge, const std::vector<FitColours>& sets, const NodeValues& held,
          double hold)
       : edge_(edge), held_(held) {
     for (const FitColours& set : sets) add_points(points_, goal, edge, set);
@@ -56,7 +56,7 @@ class Misfit {
   /// Counts each colour by 1/its difference, the worse of its readings: the sum of squares becomes one of
   /// differences (iteratively reweighted least squares), so a few that no node can hold do not spoil the
   /// rest.
-  void count_differences(const Values& nodes) {
+  void count_differences(const NodeValues& nodes) {
     constexpr double scale = 0.1, floor = 0.01;  // CIEDE2000; by trial. Below the floor all is well.
     for (FitPoint& p : points_) {
       double worse = 0;
@@ -69,8 +69,8 @@ class Misfit {
   }
 
   /// Half the gradient, negative: where the nodes are to go.
-  Values downhill(const Values& nodes) const {
-    Values out(nodes.size());
+  NodeValues downhill(const NodeValues& nodes) const {
+    NodeValues out(nodes.size());
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = hold_ * (held_[i] - nodes[i]);
     for (const FitPoint& p : points_)
       for (const Reading reading : readings) {
@@ -82,8 +82,8 @@ class Misfit {
   }
 
   /// The form's matrix times a direction.
-  Values times(const Values& direction) const {
-    Values out(direction.size());
+  NodeValues times(const NodeValues& direction) const {
+    NodeValues out(direction.size());
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = hold_ * direction[i];
     for (const FitPoint& p : points_)
       for (const Reading reading : readings) {
@@ -94,8 +94,8 @@ class Misfit {
   }
 
   /// The matrix's diagonal.
-  Values diagonal(std::size_t size) const {
-    Values out(size, hold_);
+  NodeValues diagonal(std::size_t size) const {
+    NodeValues out(size, hold_);
     for (const FitPoint& p : points_)
       for (const Reading reading : readings) {
         const NodeShares shares = node_shares(p.at, edge_, reading);
@@ -115,7 +115,7 @@ class Misfit {
       sum += p.weight * static_cast<double>(p.metric[0] + p.metric[1] + p.metric[2]) / 3;
     return points_.empty() ? 1 : sum / static_cast<double>(points_.size());
   }
-  static Vec3<double> value(const Values& nodes, const NodeShares& shares) {
+  static Vec3<double> value(const NodeValues& nodes, const NodeShares& shares) {
     Vec3<double> out{};
     for (std::size_t i = 0; i < shares.count; ++i)
       for (std::size_t c = 0; c < 3; ++c) out[c] += shares.share[i] * nodes[3 * shares.node[i] + c];
@@ -126,34 +126,34 @@ class Misfit {
     for (std::size_t c = 0; c < 3; ++c) out[c] = static_cast<double>(p.wanted[c]) - got[c];
     return out;
   }
-  static void spread(Values& out, const NodeShares& shares, const Vec3<double>& v, double weight) {
+  static void spread(NodeValues& out, const NodeShares& shares, const Vec3<double>& v, double weight) {
     for (std::size_t i = 0; i < shares.count; ++i)
       for (std::size_t c = 0; c < 3; ++c) out[3 * shares.node[i] + c] += weight * shares.share[i] * v[c];
   }
 
   std::size_t edge_;
-  const Values& held_;
+  const NodeValues& held_;
   double hold_ = 0;
   std::vector<FitPoint> points_;
 };
 
-double product(const Values& a, const Values& b) {
+double product(const NodeValues& a, const NodeValues& b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
-Values quotient(const Values& a, const Values& b) {
-  Values out(a.size());
+NodeValues quotient(const NodeValues& a, const NodeValues& b) {
+  NodeValues out(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) out[i] = a[i] / b[i];
   return out;
 }
 
 /// Hestenes & Stiefel 1952, with the diagonal as preconditioner.
-void descend(Values& nodes, const Misfit& misfit, int steps) {
-  const Values diagonal = misfit.diagonal(nodes.size());
-  Values r = misfit.downhill(nodes), z = quotient(r, diagonal), p = z;
+void descend(NodeValues& nodes, const Misfit& misfit, int steps) {
+  const NodeValues diagonal = misfit.diagonal(nodes.size());
+  NodeValues r = misfit.downhill(nodes), z = quotient(r, diagonal), p = z;
   double rz = product(r, z);
   for (int step = 0; step < steps && rz > 0; ++step) {
-    const Values ap = misfit.times(p);
+    const NodeValues ap = misfit.times(p);
     const double length = rz / product(p, ap);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       nodes[i] += length * p[i];
@@ -181,7 +181,7 @@ std::vector<double> sampled_nodes(const CubeGoal& goal, std::size_t edge) {
         codes.b.push_back(code(k));
       }
   const Colours out = goal.exact(codes);
-  Values nodes;
+  NodeValues nodes;
   nodes.reserve(3 * out.size());
   for (std::size_t n = 0; n < out.size(); ++n)
     for (const float x : {out.r[n], out.g[n], out.b[n]})
@@ -191,7 +191,7 @@ std::vector<double> sampled_nodes(const CubeGoal& goal, std::size_t edge) {
 
 std::vector<double> fitted_nodes(const CubeGoal& goal, std::size_t edge, std::vector<double> nodes,
                                  const std::vector<FitColours>& sets, const FitOptions& options) {
-  const Values held = nodes;
+  const NodeValues held = nodes;
   Misfit misfit(goal, edge, sets, held, options.hold);
   descend(nodes, misfit, options.steps);
   for (int round = 0; round < options.rounds; ++round) {

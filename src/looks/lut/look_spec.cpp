@@ -51,9 +51,9 @@ std::string matrix_text(const Matrix3<double>& m) {
 }
 
 /// key=value pairs of one line; any failure to read a value is remembered.
-class Values {
+class LineValues {
  public:
-  explicit Values(std::string_view line) {
+  explicit LineValues(std::string_view line) {
     while (!line.empty()) {
       const std::size_t end = std::min(line.find("; "), line.size());
       const std::string_view pair = line.substr(0, end);
@@ -149,7 +149,7 @@ std::optional<LookSpec> read_spec(std::string_view file) {
   if (start == std::string_view::npos) return std::nullopt;
   std::string_view line = file.substr(start + marker.size());
   line = line.substr(0, std::min(line.find_first_of("<\r\n"), line.size()));
-  Values values(line);
+  LineValues values(line);
   LookSpec spec;
   AppearanceParameters& p = spec.parameters;
   constexpr double tiny = 1e-30, huge = 1e30;

@@ -39,7 +39,7 @@ std::size_t first_line(const Lines& lines, const Block& block) {
   return i;
 }
 
-struct Place {
+struct TextPlace {
   std::size_t line = 0, column = 0;
 };
 
@@ -52,7 +52,7 @@ std::size_t after_quoted(const std::string& line, std::size_t at) {
 }
 
 /// The bracket that closes the first one that is opened.
-std::optional<Place> closing_bracket(const Lines& lines, std::size_t first, std::size_t last) {
+std::optional<TextPlace> closing_bracket(const Lines& lines, std::size_t first, std::size_t last) {
   int depth = 0;
   for (std::size_t l = first; l < last; ++l)
     for (std::size_t c = 0; c < lines[l].size(); ++c) {
@@ -61,7 +61,7 @@ std::optional<Place> closing_bracket(const Lines& lines, std::size_t first, std:
       if ((at == '"' || at == '\'') && (before == ' ' || before == '[' || before == ','))
         c = after_quoted(lines[l], c);
       if (at == '[') ++depth;
-      if (at == ']' && --depth == 0) return Place{l, c};
+      if (at == ']' && --depth == 0) return TextPlace{l, c};
     }
   return std::nullopt;
 }
@@ -140,7 +140,7 @@ void insert(Lines& lines, std::size_t at, const Lines& more) {
 
 bool append_to_flow(Lines& lines, std::size_t first, std::size_t last,
                     const std::vector<std::string>& names) {
-  const std::optional<Place> end = closing_bracket(lines, first, last);
+  const std::optional<TextPlace> end = closing_bracket(lines, first, last);
   if (!end) return false;
   std::string& line = lines[end->line];
   std::size_t at = end->column;

@@ -8,20 +8,23 @@
 
 #include "batch/batch.h"
 #include "batch/half_rows.h"
-#include "stages/reference.h"
 #include "io/pixels/row_bands.h"
+#include "stages/reference.h"
 
 namespace scotopic {
 namespace {
 
-using Place = std::shared_ptr<Workplace>;
+using SharedWorkplace = std::shared_ptr<Workplace>;
 
 /// Slow evaluators see but a part of the picture.
 constexpr std::size_t slow_share = 16;
 
-std::size_t slow_rows(const Place& place) { return std::max<std::size_t>(1, place->rows() / slow_share); }
+std::size_t slow_rows(const SharedWorkplace& place) {
+  return std::max<std::size_t>(1, place->rows() / slow_share);
+}
 
-TimedRun timed_rows(const Place& place, std::size_t rows, const RowOperator& apply, bool threaded = false) {
+TimedRun timed_rows(const SharedWorkplace& place, std::size_t rows, const RowOperator& apply,
+                    bool threaded = false) {
   const std::size_t pixels = place->restore(rows);
   const auto some = [place, apply](int first, int last) {
     for (int y = first; y < last; ++y) apply(place->row(static_cast<std::size_t>(y)), nullptr);
@@ -40,7 +43,8 @@ Contender contender(std::string group, std::string name, EvaluatorError error, T
   return out;
 }
 
-Contender scalar_contender(const AppearanceParameters& p, const Place& place, const Colours& colours) {
+Contender scalar_contender(const AppearanceParameters& p, const SharedWorkplace& place,
+                           const Colours& colours) {
   const auto reference = std::make_shared<AppearanceReference>(p);
   const RowOperator apply = [reference](const PixelRows& rows, std::uint8_t*) {
     for (std::size_t i = 0; i < rows.count; ++i) {
@@ -135,8 +139,8 @@ PixelRows Workplace::row(std::size_t y) {
   return rows;
 }
 
-Contender evaluator_contender(const AppearanceParameters& p, const EvaluatorKind& kind, const Place& place,
-                              const Colours& colours) {
+Contender evaluator_contender(const AppearanceParameters& p, const EvaluatorKind& kind,
+                              const SharedWorkplace& place, const Colours& colours) {
   PreparedEvaluator prepared = prepare_evaluator(p, kind);
   const std::size_t rows = kind.edge > 0 ? slow_rows(place) : place->rows();
   Contender out = contender("operator", std::string(kind.name), evaluator_error(p, prepared.apply, colours),

@@ -264,7 +264,7 @@ ImageLayout plan_layout(const PixelSource& source, const std::string& output, co
       copied.subimage = source.subimages()[i];
       copied.copy = true;
       // Chunks of a part are copied at once, with all its resolutions.
-      if (copied.subimage.level_x == 0 && copied.subimage.level_y == 0) layout.outputs.push_back(copied);
+      if (copied.subimage.is_full_resolution()) layout.outputs.push_back(copied);
     }
   }
   // JPEG rounds in another domain, where steps of a code mean nothing.

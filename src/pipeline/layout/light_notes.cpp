@@ -65,7 +65,7 @@ std::vector<std::string> left_alone(const PixelSource& source, const std::vector
   std::set<int> parts;
   for (std::size_t i = 0; i < source.subimages().size(); ++i) {
     const Subimage& subimage = source.subimages()[i];
-    if (subimage.level_x != 0 || subimage.level_y != 0) continue;
+    if (!subimage.is_full_resolution()) continue;
     std::set<std::string> chosen;
     bool computed = false;
     for (const LightSubimage& p : light) {
@@ -88,7 +88,7 @@ std::vector<std::string> bands_beside(const PixelSource& source, const std::vect
   std::set<std::size_t> seen;
   for (const LightSubimage& p : light) {
     const Subimage& subimage = source.subimages()[p.index];
-    if (subimage.level_x != 0 || subimage.level_y != 0 || !seen.insert(p.index).second) continue;
+    if (!subimage.is_full_resolution() || !seen.insert(p.index).second) continue;
     for (const std::string& band : spectral_look_alikes(subimage)) out.push_back(band);
   }
   return out;

@@ -26,8 +26,6 @@ const std::vector<float>* plane(const LightRow& light, std::size_t k) {
   return plane(const_cast<LightRow&>(light), k);
 }
 
-bool is_full_resolution(const Subimage& subimage) { return subimage.level_x == 0 && subimage.level_y == 0; }
-
 }  // namespace
 
 LightPlanes::LightPlanes(const Subimage& subimage, bool receptors, const Moment& moment)
@@ -90,7 +88,7 @@ FrameLights decode_frames(PixelSource& source, const ImageLayout& layout, const 
   for (const LightSubimage& light : layout.light) {
     const Subimage& subimage = source.subimages()[light.index];
     std::unique_ptr<LightPlanes>& kept = out.subimages.emplace_back();
-    if (!is_full_resolution(subimage)) continue;
+    if (!subimage.is_full_resolution()) continue;
     const LightReader reader(light.channels, config, light.space);
     LightPlanes& frame = *(kept = std::make_unique<LightPlanes>(subimage, reader.receptors(), moment));
     NonFiniteTally tally(subimage);
@@ -117,7 +115,7 @@ std::int64_t frame_bytes(const PixelSource& source, const ImageLayout& layout, c
   std::int64_t planes = 0, most = 0;
   for (const LightSubimage& light : layout.light) {
     const Subimage& subimage = source.subimages()[light.index];
-    if (!is_full_resolution(subimage)) continue;
+    if (!subimage.is_full_resolution()) continue;
     const bool receptors = has_receptors(light.channels);
     planes += LightPlanes::bytes(subimage, receptors);
     const FrameSize size = {subimage.data.width(), subimage.data.height(), receptors ? 7 : 3,

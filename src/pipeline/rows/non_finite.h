@@ -43,8 +43,7 @@ void clean(const PixelRows& rows, const std::vector<std::size_t>& pixels);
 class NonFiniteTally {
  public:
   /// Of smaller resolutions nothing is counted.
-  explicit NonFiniteTally(const Subimage& subimage)
-      : counts_(subimage.level_x == 0 && subimage.level_y == 0) {}
+  explicit NonFiniteTally(const Subimage& subimage) : counts_(subimage.is_full_resolution()) {}
 
   /// Pixels of a row that begins at (x, y), as non_finite_of() has them.
   void add(const std::vector<std::size_t>& pixels, int x, int y);

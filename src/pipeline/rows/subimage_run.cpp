@@ -246,7 +246,7 @@ void SubimageRun::write_row(const Band& in, int x, int row, Room& room, const Ba
     const NativeRow sources[3] = {colour_row(in, row, 0), colour_row(in, row, 1), colour_row(in, row, 2)};
     changed = writer_.write(light, targets, &sources, x, in.y0 + row);
   }
-  const bool counts = stages_.clipped && source_subimage_.level_x == 0 && source_subimage_.level_y == 0;
+  const bool counts = stages_.clipped && source_subimage_.is_full_resolution();
   if (changed && counts) *stages_.clipped += clipped_pixels(light, targets[0].type);
   copy_others(in, row, light, out);
 }

@@ -24,8 +24,6 @@ PixelRows columns(PixelRows rows, std::uint64_t first, int count) {
   return rows;
 }
 
-bool is_full_resolution(const Subimage& subimage) { return subimage.level_x == 0 && subimage.level_y == 0; }
-
 /// Pixels of all subimages with light, smaller resolutions included.
 std::uint64_t pixels_of(const PixelSource& source, const ImageLayout& layout) {
   std::uint64_t pixels = 0;
@@ -118,7 +116,7 @@ MeasuredLight measure_light(PixelSource& source, const ImageLayout& layout, cons
   for (std::size_t i = 0; i < layout.light.size(); ++i) {
     const LightSubimage& light = layout.light[i];
     const Subimage& subimage = source.subimages()[light.index];
-    if (!light.metered || !is_full_resolution(subimage)) continue;
+    if (!light.metered || !subimage.is_full_resolution()) continue;
     const LightReader reader(light.channels, config, light.space);
     const LightPlanes* const frame = frames ? frames->of(i) : nullptr;
     SubimageMeter of_picture(subimage, reader, frame, meter, request, before);
@@ -162,7 +160,7 @@ LuminanceHistogram measure_base(PixelSource& source, const ImageLayout& layout, 
   };
   for (const OutputSubimage& out : layout.outputs) {
     const Subimage& subimage = source.subimages()[out.source];
-    if (out.copy || !is_full_resolution(subimage)) continue;
+    if (out.copy || !subimage.is_full_resolution()) continue;
     const std::vector<const LightSubimage*> layers = layout.lights_of(out.source);
     for (std::size_t layer = 0; layer < layers.size(); ++layer) {
       if (!layers[layer]->metered) continue;

@@ -7,7 +7,7 @@
 namespace scotopic::shaders {
 namespace {
 
-constexpr Spelling spelling = {"f", "bool", "min", "max", "fabs", "sqrt", "exp", "log", "pow"};
+constexpr Spelling blink_spelling = {"f", "bool", "min", "max", "fabs", "sqrt", "exp", "log", "pow"};
 
 std::string members_of(const Statements& s) {
   std::string out = "param:\n";
@@ -23,7 +23,7 @@ std::string define_of(const Statements& s, const Record& record) {
     const SliderText& text = text_of(slider);
     out += fmt::format("    defineParam({}, \"{}{}\", {});\n", text.name, text.label,
                        text.unit.empty() ? "" : ", " + std::string(text.unit),
-                       number_in(spelling, record.defaults[static_cast<std::size_t>(slider)]));
+                       number_in(blink_spelling, record.defaults[static_cast<std::size_t>(slider)]));
   }
   return out + "  }\n";
 }
@@ -31,7 +31,7 @@ std::string define_of(const Statements& s, const Record& record) {
 }  // namespace
 
 std::string blink_text(const ShaderSpec& spec, const Record& record) {
-  const Statements s = statements_of(record, spelling);
+  const Statements s = statements_of(record, blink_spelling);
   return header_of(spec, s, "A BlinkScript kernel for Nuke") +
          "\nkernel Scotopic : ImageComputationKernel<ePixelWise>\n{\n"
          "  Image<eRead, eAccessPoint, eEdgeClamped> src;\n  Image<eWrite> dst;\n\n" +

@@ -10,7 +10,8 @@
 namespace scotopic::shaders {
 namespace {
 
-constexpr Spelling spelling = {"f", "bool", "_fminf", "_fmaxf", "_fabs", "_sqrtf", "_expf", "_logf", "_powf"};
+constexpr Spelling dctl_spelling = {"f",      "bool",  "_fminf", "_fmaxf", "_fabs",
+                                    "_sqrtf", "_expf", "_logf",  "_powf"};
 
 std::string slider_of(Slider slider, double value) {
   const SliderText& text = text_of(slider);
@@ -28,7 +29,7 @@ std::string slider_of(Slider slider, double value) {
 }  // namespace
 
 std::string dctl_text(const ShaderSpec& spec, const Record& record) {
-  const Statements s = statements_of(record, spelling);
+  const Statements s = statements_of(record, dctl_spelling);
   std::string sliders, adaptation;
   for (const Slider slider : s.used) {
     sliders += slider_of(slider, record.defaults[static_cast<std::size_t>(slider)]);

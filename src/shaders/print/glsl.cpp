@@ -8,20 +8,20 @@
 namespace scotopic::shaders {
 namespace {
 
-constexpr Spelling spelling = {"", "bool", "min", "max", "abs", "sqrt", "exp", "log", "pow"};
+constexpr Spelling glsl_spelling = {"", "bool", "min", "max", "abs", "sqrt", "exp", "log", "pow"};
 
 std::string uniforms_of(const Statements& statements, const Record& record) {
   std::string out;
   for (const Slider slider : statements.used)
     out += fmt::format("uniform float {} = {};\n", text_of(slider).name,
-                       number_in(spelling, record.defaults[static_cast<std::size_t>(slider)]));
+                       number_in(glsl_spelling, record.defaults[static_cast<std::size_t>(slider)]));
   return out;
 }
 
 }  // namespace
 
 std::string glsl_text(const ShaderSpec& spec, const Record& record) {
-  const Statements s = statements_of(record, spelling);
+  const Statements s = statements_of(record, glsl_spelling);
   return "#version 120\n" + header_of(spec, s, "GLSL, for Flame's Matchbox and others") +
          "\nuniform sampler2D front;\nuniform float adsk_result_w, adsk_result_h;\n" +
          uniforms_of(s, record) +

@@ -9,7 +9,7 @@
 namespace scotopic::shaders {
 namespace {
 
-constexpr Spelling spelling = {"", "bool", "min", "max", "abs", "sqrt", "exp", "log", "pow"};
+constexpr Spelling hlsl_spelling = {"", "bool", "min", "max", "abs", "sqrt", "exp", "log", "pow"};
 
 // ReShade's sliders are linear, adaptation is not.
 bool logarithmic(Slider slider) { return slider == Slider::adaptation; }
@@ -25,9 +25,10 @@ std::string reshade_sliders(const Statements& s, const Record& record) {
     out += fmt::format(
         "uniform float {} < ui_type = \"slider\"; ui_label = \"{}{}{}\"; ui_min = {}; ui_max = {}; > = {};\n",
         variable_of(slider), text.label, logarithmic(slider) ? ", log10" : "",
-        text.unit.empty() ? "" : " " + std::string(text.unit), number_in(spelling, shown(slider, text.least)),
-        number_in(spelling, shown(slider, text.greatest)),
-        number_in(spelling, shown(slider, record.defaults[static_cast<std::size_t>(slider)])));
+        text.unit.empty() ? "" : " " + std::string(text.unit),
+        number_in(hlsl_spelling, shown(slider, text.least)),
+        number_in(hlsl_spelling, shown(slider, text.greatest)),
+        number_in(hlsl_spelling, shown(slider, record.defaults[static_cast<std::size_t>(slider)])));
   }
   return out;
 }
@@ -67,7 +68,7 @@ constexpr const char* main_function = R"(float4 main(float4 position : SV_Positi
 }  // namespace
 
 std::string hlsl_text(const ShaderSpec& spec, const Record& record) {
-  const Statements s = statements_of(record, spelling);
+  const Statements s = statements_of(record, hlsl_spelling);
   std::string adaptation;
   for (const Slider slider : s.used)
     if (logarithmic(slider)) adaptation = "  float adaptation = exp(log10_adaptation * 2.3025851);\n";

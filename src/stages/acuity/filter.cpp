@@ -7,6 +7,7 @@
 #include <string>
 
 #include "stages/acuity/engines.h"
+#include "stages/shared/require.h"
 
 namespace scotopic {
 namespace {
@@ -55,10 +56,6 @@ double widened_sigma(double reach) {
   return 0.5 * (low + high);
 }
 
-void require(bool holds, const char* what) {
-  if (!holds) throw std::invalid_argument(std::string("AcuityFilter: ") + what);
-}
-
 template <typename T>
 void copy_matrix(const Matrix3<double>& from, T (&to)[3][3]) {
   for (std::size_t i = 0; i < 3; ++i)
@@ -81,14 +78,16 @@ struct AcuityFilter::Plan {
 namespace {
 
 void check(const AcuityParameters& p) {
-  require(std::isfinite(p.sigma) && p.sigma >= 0.0 && p.sigma <= 1e4, "sigma must be 0 ... 1e4 pixels");
-  require(p.pixel_aspect >= 0.1 && p.pixel_aspect <= 10.0, "pixel_aspect must be 0.1 ... 10");
-  require(p.pixel_aspect == 1.0 || p.engine != AcuityEngine::cells, "cells takes pixels for square");
-  require(std::isfinite(p.range_sigma) && p.range_sigma > 0.0, "range_sigma must be > 0");
-  require(std::isfinite(p.white) && p.white > 0.0, "white must be > 0");
-  require(p.strength >= 0.0 && p.strength <= 1.0, "strength must be 0 ... 1");
+  require(std::isfinite(p.sigma) && p.sigma >= 0.0 && p.sigma <= 1e4,
+          "AcuityFilter: sigma must be 0 ... 1e4 pixels");
+  require(p.pixel_aspect >= 0.1 && p.pixel_aspect <= 10.0, "AcuityFilter: pixel_aspect must be 0.1 ... 10");
+  require(p.pixel_aspect == 1.0 || p.engine != AcuityEngine::cells,
+          "AcuityFilter: cells takes pixels for square");
+  require(std::isfinite(p.range_sigma) && p.range_sigma > 0.0, "AcuityFilter: range_sigma must be > 0");
+  require(std::isfinite(p.white) && p.white > 0.0, "AcuityFilter: white must be > 0");
+  require(p.strength >= 0.0 && p.strength <= 1.0, "AcuityFilter: strength must be 0 ... 1");
   const double det = determinant(p.xyz_from_rgb);
-  require(std::isfinite(det) && det != 0.0, "xyz_from_rgb has no inverse");
+  require(std::isfinite(det) && det != 0.0, "AcuityFilter: xyz_from_rgb has no inverse");
 }
 
 int cell_of(double sigma, const Tuning& tuning) {
@@ -254,7 +253,7 @@ void acuity::require_window(const AcuityWindow& window, const AcuityTile& tile, 
   };
   require(holds(window.x, window.width, tile.x, tile.width, window.image_width) &&
               holds(window.y, window.height, tile.y, tile.height, window.image_height),
-          "the window must hold the tile and its halo");
+          "AcuityFilter: the window must hold the tile and its halo");
 }
 
 acuity::LabRows::LabRows(int width, int margin_pixels, int row_count) : margin(margin_pixels) {

@@ -10,6 +10,7 @@
 
 #include "stages/acuity/cutoff.h"
 #include "stages/acuity/engines.h"
+#include "stages/shared/require.h"
 
 namespace scotopic {
 namespace {
@@ -18,10 +19,6 @@ constexpr int block = 128;           // pixels; results do not depend on it
 constexpr double reach = 3.0;        // of the surround, in its sigmas
 constexpr double brightest = 1e4;    // times the scene's white
 constexpr double least_sigma = 0.3;  // pixels: below, no neighbour weighs 1 %
-
-void require(bool holds, const char* what) {
-  if (!holds) throw std::invalid_argument(std::string("LocalAcuityFilter: ") + what);
-}
 
 }  // namespace
 
@@ -135,10 +132,9 @@ double LocalAcuityFilter::Surround::at(int x, int y) const {
 }
 
 LocalAcuityFilter::LocalAcuityFilter(const LocalAcuityParameters& p) {
-  const auto positive = [](double v) { return std::isfinite(v) && v > 0.0; };
-  require(positive(p.adaptation), "adaptation must be > 0");
-  require(positive(p.white_luminance), "white_luminance must be > 0");
-  require(positive(p.pixels_per_degree), "pixels_per_degree must be > 0");
+  require(positive(p.adaptation), "LocalAcuityFilter: adaptation must be > 0");
+  require(positive(p.white_luminance), "LocalAcuityFilter: white_luminance must be > 0");
+  require(positive(p.pixels_per_degree), "LocalAcuityFilter: pixels_per_degree must be > 0");
   auto plan = std::make_unique<Plan>();
   plan->parameters = p;
   // Width at half height, of a Gaussian: 2 sqrt(2 ln 2) sigma.

@@ -10,6 +10,7 @@
 
 #include "stages/acuity/engines.h"
 #include "stages/contrast/block.h"
+#include "stages/shared/require.h"
 #include "stages/spares.h"
 
 namespace scotopic {
@@ -21,21 +22,17 @@ using contrast::ExcessTable;
 
 constexpr int block_rows = 128;
 
-void require(bool holds, const char* what) {
-  if (!holds) throw std::invalid_argument(std::string("ContrastFilter: ") + what);
-}
-
-bool positive(double x) { return std::isfinite(x) && x > 0.0; }
-
 void check(const ContrastParameters& p) {
   const double white = p.luminance[0] + p.luminance[1] + p.luminance[2];
-  require(positive(white), "luminance must be finite, and > 0 for R = G = B = 1");
-  require(positive(p.unit), "unit must be > 0");
-  require(p.adaptation >= 1e-6 && p.adaptation <= 1e6, "adaptation must be 1e-6 ... 1e6 cd/m2");
+  require(positive(white), "ContrastFilter: luminance must be finite, and > 0 for R = G = B = 1");
+  require(positive(p.unit), "ContrastFilter: unit must be > 0");
+  require(p.adaptation >= 1e-6 && p.adaptation <= 1e6,
+          "ContrastFilter: adaptation must be 1e-6 ... 1e6 cd/m2");
   require(positive(p.pixels_per_degree) && p.pixels_per_degree <= 1000.0,
-          "pixels_per_degree must be > 0 and at most 1000");
-  require(positive(p.display.scale) && positive(p.display.peak), "display must have scale and peak > 0");
-  require(p.strength >= 0.0 && p.strength <= 1.0, "strength must be 0 ... 1");
+          "ContrastFilter: pixels_per_degree must be > 0 and at most 1000");
+  require(positive(p.display.scale) && positive(p.display.peak),
+          "ContrastFilter: display must have scale and peak > 0");
+  require(p.strength >= 0.0 && p.strength <= 1.0, "ContrastFilter: strength must be 0 ... 1");
 }
 
 /// From the floor of luminance to 1e6 cd/m2. A 256th of an octave is within 4e-4 decades of the function;

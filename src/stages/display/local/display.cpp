@@ -6,9 +6,10 @@
 #include <string>
 
 #include "adaptation/mesopic.h"
-#include "stages/shared/mesopic_fit.h"
 #include "stages/display/local/base_layer.h"
 #include "stages/display/local/gamut_light.h"
+#include "stages/shared/mesopic_fit.h"
+#include "stages/shared/require.h"
 
 namespace scotopic {
 namespace {
@@ -16,22 +17,16 @@ namespace {
 /// Share of the peak from which on the shoulder bends.
 constexpr float shoulder_from = 0.8f;
 
-void require(bool holds, const char* what) {
-  if (!holds) throw std::invalid_argument(std::string("DisplayFilter: ") + what);
-}
-
-bool positive(double x) { return std::isfinite(x) && x > 0; }
-
 // Beside what the base layer demands.
 void check(const DisplayParameters& p, const DisplayRange& range) {
-  require(p.strength >= 0 && p.strength <= 1, "strength must be 0 ... 1");
-  require(std::isfinite(p.contrast) && p.contrast >= 1, "contrast must be >= 1");
-  require(positive(p.peak), "peak must be > 0");
-  require(p.night_range >= 0 && p.night_range <= 1, "night_range must be 0 ... 1");
-  require(positive(p.night_exponent), "night_exponent must be > 0");
-  require(std::isfinite(p.exposure), "exposure must be finite");
+  require(p.strength >= 0 && p.strength <= 1, "DisplayFilter: strength must be 0 ... 1");
+  require(std::isfinite(p.contrast) && p.contrast >= 1, "DisplayFilter: contrast must be >= 1");
+  require(positive(p.peak), "DisplayFilter: peak must be > 0");
+  require(p.night_range >= 0 && p.night_range <= 1, "DisplayFilter: night_range must be 0 ... 1");
+  require(positive(p.night_exponent), "DisplayFilter: night_exponent must be > 0");
+  require(std::isfinite(p.exposure), "DisplayFilter: exposure must be finite");
   require(positive(range.low) && std::isfinite(range.high) && range.low <= range.high,
-          "range must be 0 < low <= high");
+          "DisplayFilter: range must be 0 < low <= high");
 }
 
 /// Identity up to shoulder_from of the peak; above, a hyperbola that ends at the peak, with the same slope

@@ -92,7 +92,7 @@ Ring ring_of(const Quarter& quarter, double share, int width, int height) {
   return out;
 }
 
-int reach_of(const Ring& ring) {
+int ring_reach(const Ring& ring) {
   int out = 0;
   for (const Arc& arc : ring.arcs) out = std::max(out, std::abs(arc.dx));
   return out;
@@ -113,7 +113,7 @@ Halo halo_of(const GlareFunction& function, const GlareGrid& grid, const std::ve
     out.rings.push_back(ring_of(Quarter(pitch, wavelength), grid.strength * function.halo(),
                                 level.x_end - level.x_begin + 2 * out.wide,
                                 level.y_end - level.y_begin + 2 * out.wide));
-    out.reach = std::max(out.reach, reach_of(out.rings.back()));
+    out.reach = std::max(out.reach, ring_reach(out.rings.back()));
   }
   return out;
 }

@@ -7,15 +7,15 @@
 namespace scotopic::glare {
 namespace {
 
-constexpr int rows_of_task = 32;
+constexpr int rows_at_once = 32;
 
 /// Runs task(y) for begin <= y < end, in tasks of neighbouring rows; `make` gives each task what it works in.
 template <typename Make, typename Task>
 void for_rows(int begin, int end, const ParallelFor& parallel_for, Make make, Task task) {
-  parallel_for((end - begin + rows_of_task - 1) / rows_of_task, [&](int i) {
+  parallel_for((end - begin + rows_at_once - 1) / rows_at_once, [&](int i) {
     auto own = make();
-    const int first = begin + i * rows_of_task;
-    for (int y = first; y < std::min(first + rows_of_task, end); ++y) task(y, own);
+    const int first = begin + i * rows_at_once;
+    for (int y = first; y < std::min(first + rows_at_once, end); ++y) task(y, own);
   });
 }
 
