@@ -7,7 +7,7 @@
 #include <string>
 
 #include "stages/acuity/engines.h"
-#include "stages/shared/require.h"
+#include "stages/require.h"
 
 namespace scotopic {
 namespace {

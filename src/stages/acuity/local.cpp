@@ -10,7 +10,7 @@
 
 #include "stages/acuity/cutoff.h"
 #include "stages/acuity/engines.h"
-#include "stages/shared/require.h"
+#include "stages/require.h"
 
 namespace scotopic {
 namespace {

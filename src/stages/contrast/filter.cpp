@@ -10,7 +10,7 @@
 
 #include "stages/acuity/engines.h"
 #include "stages/contrast/block.h"
-#include "stages/shared/require.h"
+#include "stages/require.h"
 #include "stages/spares.h"
 
 namespace scotopic {

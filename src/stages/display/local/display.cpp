@@ -8,8 +8,8 @@
 #include "adaptation/mesopic.h"
 #include "stages/display/local/base_layer.h"
 #include "stages/display/local/gamut_light.h"
+#include "stages/require.h"
 #include "stages/shared/mesopic_fit.h"
-#include "stages/shared/require.h"
 
 namespace scotopic {
 namespace {
