@@ -29,19 +29,20 @@ AdaptationState fully_bleached() { return {1, 1, 1, 0, 0}; }
 
 constexpr double unknown = -1;
 
-struct Row {
+struct AfterLight {
   double minutes;
   std::array<double, 2> after_1000, after_3000, after_10000;  // rods, cones
 };
 
-constexpr std::array<Row, 8> table = {{{0, {3.446, 3.223}, {4.588, 3.846}, {5.555, 5.094}},
-                                       {1, {3.210, 3.026}, {4.349, 3.189}, {5.316, 4.086}},
-                                       {5, {2.292, 3.000}, {3.395, 3.000}, {4.356, 3.000}},
-                                       {7, {1.872, 3.000}, {2.924, 3.000}, {3.878, 3.000}},
-                                       {10, {1.353, unknown}, {2.244, unknown}, {3.165, 3.000}},
-                                       {20, {0.569, unknown}, {0.826, unknown}, {1.153, unknown}},
-                                       {30, {0.223, unknown}, {0.358, unknown}, {0.464, unknown}},
-                                       {40, {0.067, unknown}, {0.121, unknown}, {0.169, unknown}}}};
+constexpr std::array<AfterLight, 8> after_light = {
+    {{0, {3.446, 3.223}, {4.588, 3.846}, {5.555, 5.094}},
+     {1, {3.210, 3.026}, {4.349, 3.189}, {5.316, 4.086}},
+     {5, {2.292, 3.000}, {3.395, 3.000}, {4.356, 3.000}},
+     {7, {1.872, 3.000}, {2.924, 3.000}, {3.878, 3.000}},
+     {10, {1.353, unknown}, {2.244, unknown}, {3.165, 3.000}},
+     {20, {0.569, unknown}, {0.826, unknown}, {1.153, unknown}},
+     {30, {0.223, unknown}, {0.358, unknown}, {0.464, unknown}},
+     {40, {0.067, unknown}, {0.121, unknown}, {0.169, unknown}}}};
 
 // At 0 min the nerves are taken to have got used to the dark: the table is of bleaching.
 AdaptationState without_nerves(AdaptationState state) {
@@ -57,7 +58,7 @@ TEST(DarkAdaptation, thresholds_fall_as_the_table_has_it) {
     if (expected[1] != unknown) worst = std::max(worst, std::abs(t.cone_log10 - expected[1]));
     EXPECT_EQ(t.log10, std::min(t.rod_log10, t.cone_log10));
   };
-  for (const Row& row : table) {
+  for (const AfterLight& row : after_light) {
     compare(1000, row.minutes, row.after_1000);
     compare(3000, row.minutes, row.after_3000);
     compare(10000, row.minutes, row.after_10000);

@@ -8,23 +8,23 @@
 namespace scotopic {
 namespace {
 
-struct Row {
+struct StopsRow {
   double adaptation, ward1997, hdrvdp2;
 };
 
 // Computed in double from the published formulas, apart from this code, and rounded to the thousandth.
-constexpr std::array<Row, 9> table = {{{10, -0.343, -0.047},
-                                       {3, -1.222, -0.350},
-                                       {1, -2.211, -0.915},
-                                       {0.3, -2.253, -1.665},
-                                       {0.1, -2.253, -2.374},
-                                       {0.03, -2.325, -3.156},
-                                       {0.01, -2.695, -3.869},
-                                       {0.003, -3.451, -4.651},
-                                       {0.001, -4.445, -5.364}}};
+constexpr std::array<StopsRow, 9> stops_table = {{{10, -0.343, -0.047},
+                                                  {3, -1.222, -0.350},
+                                                  {1, -2.211, -0.915},
+                                                  {0.3, -2.253, -1.665},
+                                                  {0.1, -2.253, -2.374},
+                                                  {0.03, -2.325, -3.156},
+                                                  {0.01, -2.695, -3.869},
+                                                  {0.003, -3.451, -4.651},
+                                                  {0.001, -4.445, -5.364}}};
 
 TEST(VisibilityStops, are_the_published_rules_values) {
-  for (const Row& row : table) {
+  for (const StopsRow& row : stops_table) {
     EXPECT_NEAR(visibility_stops(row.adaptation, VisibilityRule::ward1997), row.ward1997, 6e-4)
         << row.adaptation;
     EXPECT_NEAR(visibility_stops(row.adaptation, VisibilityRule::hdrvdp2), row.hdrvdp2, 6e-4)

@@ -1,7 +1,6 @@
 // Half and RGBA rows against float planes: the same results, rounded as Imath rounds.
 #include <Imath/half.h>
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <bit>
@@ -12,6 +11,7 @@
 
 #include "batch/batch.h"
 #include "support/primaries.h"
+#include "support/simd_targets.h"
 
 namespace scotopic {
 namespace {
@@ -69,24 +69,12 @@ Expected through_floats(const AppearanceBatch& batch, const EveryHalf& in) {
   return out;
 }
 
-// Calls check() with each SIMD target in force.
-template <typename F>
-void on_every_target(F check) {
-  for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().DeInit();
-    check(hwy::TargetName(target));
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().DeInit();
-}
-
 TEST(BatchLayouts, every_half_gives_what_float_planes_give_rounded_on_every_target) {
   const EveryHalf in;
   for (const Precision precision : {Precision::single, Precision::dual}) {
     const AppearanceBatch batch = night(precision);
     const Expected expected = through_floats(batch, in);
-    on_every_target([&](const char* target) {
+    test::on_every_target([&](const char* target) {
       EveryHalf out = in;
       std::vector<std::uint8_t> touched(out.r.size(), 9);
       batch.apply(HalfRows{out.r.data(), out.g.data(), out.b.data(), out.r.size()}, touched.data());
@@ -103,7 +91,7 @@ TEST(BatchLayouts, half_rgba_gives_what_half_planes_give_and_alpha_keeps_its_bit
   const AppearanceBatch batch = night(Precision::single);
   EveryHalf planes = in;
   batch.apply(HalfRows{planes.r.data(), planes.g.data(), planes.b.data(), planes.r.size()});
-  on_every_target([&](const char* target) {
+  test::on_every_target([&](const char* target) {
     std::vector<std::uint16_t> rgba, expected;
     for (std::size_t i = 0; i < in.r.size(); ++i) {
       const auto alpha = static_cast<std::uint16_t>(i);

@@ -2,7 +2,6 @@
 #include "batch/display_batch.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <bit>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "support/primaries.h"
+#include "support/simd_targets.h"
 
 namespace scotopic {
 namespace {
@@ -42,7 +42,7 @@ struct Planes {
 };
 
 // Light from a millionth of the peak to ten million peaks; some below 0, as other gamuts' colours are.
-Planes drawn(std::size_t count, const NightDisplayParameters& p, unsigned seed) {
+Planes drawn_for_display(std::size_t count, const NightDisplayParameters& p, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> decades(-6, 7), share(-0.05, 1);
   Planes out;
@@ -55,7 +55,7 @@ Planes drawn(std::size_t count, const NightDisplayParameters& p, unsigned seed) 
   return out;
 }
 
-NightDisplayParameters at(double la, double peak = 100, bool other_primaries = false) {
+NightDisplayParameters shown_at(double la, double peak = 100, bool other_primaries = false) {
   NightDisplayParameters p;
   p.adaptation = la;
   p.white_luminance = la / 0.18;
@@ -73,8 +73,8 @@ TEST_P(DisplayBatchTest, is_the_formula_to_a_few_ulp_of_what_is_shown) {
   for (const double la : {0.001, 0.01, 0.1, 1.0, 10.0})
     for (const double peak : {100.0, 1000.0})
       for (const bool other : {false, true}) {
-        const NightDisplayParameters p = at(la, peak, other);
-        Planes planes = drawn(20000, p, 7), in = planes;
+        const NightDisplayParameters p = shown_at(la, peak, other);
+        Planes planes = drawn_for_display(20000, p, 7), in = planes;
         DisplayBatch(p, GetParam()).apply(planes.rows());
         for (std::size_t i = 0; i < in.r.size(); ++i) {
           const Vec3<float> before = {in.r[i], in.g[i], in.b[i]};
@@ -93,27 +93,25 @@ TEST_P(DisplayBatchTest, is_the_formula_to_a_few_ulp_of_what_is_shown) {
 INSTANTIATE_TEST_SUITE_P(Both, DisplayBatchTest, testing::Values(Precision::single, Precision::dual));
 
 TEST(DisplayBatch, every_target_and_every_length_gives_the_same_bits) {
-  const NightDisplayParameters p = at(0.05, 100, true);
+  const NightDisplayParameters p = shown_at(0.05, 100, true);
   const DisplayBatch batch(p);
-  Planes all = drawn(4099, p, 3);
+  Planes all = drawn_for_display(4099, p, 3);
   const Planes in = all;
   batch.apply(all.rows());
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    hwy::SetSupportedTargetsForTest(target);
+  test::on_every_target([&](const char* target) {
     for (const std::size_t step : {std::size_t{1}, std::size_t{7}, std::size_t{64}, in.r.size()}) {
       Planes pieces = in;
       for (std::size_t at = 0; at < in.r.size(); at += step)
         batch.apply({pieces.r.data() + at, pieces.g.data() + at, pieces.b.data() + at, nullptr, nullptr,
                      nullptr, nullptr, std::min(step, in.r.size() - at)});
-      EXPECT_EQ(pieces.r, all.r) << hwy::TargetName(target) << step;
-      EXPECT_EQ(pieces.b, all.b) << hwy::TargetName(target) << step;
+      EXPECT_EQ(pieces.r, all.r) << target << step;
+      EXPECT_EQ(pieces.b, all.b) << target << step;
     }
-  }
-  hwy::SetSupportedTargetsForTest(0);
+  });
 }
 
 TEST(DisplayBatch, what_needs_neither_scale_nor_shoulder_keeps_its_bits) {
-  NightDisplayParameters p = at(100);
+  NightDisplayParameters p = shown_at(100);
   p.shoulder = Shoulder::clip;
   ASSERT_EQ(display_scale(p), 1);
   const DisplayBatch batch(p);
@@ -133,7 +131,7 @@ TEST(DisplayBatch, pixels_that_are_not_finite_pass_and_say_so) {
   constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
   Planes planes{{inf, nan, 1, 1}, {1, 1, -inf, 1}, {1, 1, 1, 1}};
   std::vector<std::uint8_t> touched(4);
-  DisplayBatch(at(0.01)).apply(planes.rows(), touched.data());
+  DisplayBatch(shown_at(0.01)).apply(planes.rows(), touched.data());
   EXPECT_EQ(touched, (std::vector<std::uint8_t>{0, 0, 0, 1}));
   EXPECT_EQ(planes.r[0], inf);
   EXPECT_TRUE(std::isnan(planes.r[1]));
@@ -142,7 +140,7 @@ TEST(DisplayBatch, pixels_that_are_not_finite_pass_and_say_so) {
 
 TEST(NightDisplay, goes_up_with_light_and_never_over_the_peak) {
   for (const double la : {0.001, 0.1, 3.0}) {
-    const NightDisplayParameters p = at(la);
+    const NightDisplayParameters p = shown_at(la);
     Vec3<double> before{};
     for (double stop = -20; stop < 30; stop += 1.0 / 64) {
       const double level = std::exp2(stop) / display_scale(p);
@@ -162,7 +160,7 @@ double code(double light) {
 
 TEST(NightDisplay, a_red_tail_lamp_stays_red_and_a_street_lamp_gets_a_white_core) {
   for (const double la : {0.1, 0.01}) {
-    const NightDisplayParameters p = at(la);
+    const NightDisplayParameters p = shown_at(la);
     const Vec3<double> red = night_display(p, {60, 2, 0.5});
     EXPECT_GE(code(red[0]), 240) << la;
     EXPECT_LE(code(red[1]), 150) << la;

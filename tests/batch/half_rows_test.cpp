@@ -3,7 +3,6 @@
 
 #include <Imath/half.h>
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <bit>
@@ -11,6 +10,8 @@
 #include <cstring>
 #include <limits>
 #include <vector>
+
+#include "support/simd_targets.h"
 
 namespace scotopic {
 namespace {
@@ -26,25 +27,10 @@ std::uint16_t expected_half(float value) {
   return Imath::half(value).bits();
 }
 
-// Calls check() with each SIMD target in force.
-template <typename F>
-void on_every_target(F check) {
-  int targets = 0;
-  for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().DeInit();
-    check(hwy::TargetName(target));
-    ++targets;
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().DeInit();
-  EXPECT_GE(targets, 1);
-}
-
 TEST(HalfRows, every_half_becomes_its_float_payloads_included) {
   std::vector<std::uint16_t> halves(65536);
   for (unsigned i = 0; i < 65536; ++i) halves[i] = static_cast<std::uint16_t>(i);
-  on_every_target([&](const char* target) {
+  test::on_every_target([&](const char* target) {
     std::vector<float> out(halves.size());
     floats_from_halves(halves.data(), halves.size(), out.data());
     for (unsigned i = 0; i < 65536; ++i)
@@ -78,7 +64,7 @@ TEST(HalfRows, floats_round_as_imath_rounds_around_every_half_and_every_midpoint
     }
   std::vector<std::uint16_t> expected;
   for (const float value : values) expected.push_back(expected_half(value));
-  on_every_target([&](const char* target) {
+  test::on_every_target([&](const char* target) {
     std::vector<std::uint16_t> out(values.size());
     halves_from_floats(values.data(), values.size(), out.data());
     for (std::size_t i = 0; i < values.size(); ++i)

@@ -2,7 +2,6 @@
 #include "batch/noise_batch.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,13 +12,14 @@
 
 #include "adaptation/mesopic.h"
 #include "support/primaries.h"
+#include "support/simd_targets.h"
 
 namespace scotopic {
 namespace {
 
 using Exact = long double;
 
-RodNoiseParameters at(double la, double ppd = 40) {
+RodNoiseParameters noise_at(double la, double ppd = 40) {
   RodNoiseParameters p;
   p.eye.adaptation = la;
   p.eye.white_luminance = la / 0.18;
@@ -28,7 +28,7 @@ RodNoiseParameters at(double la, double ppd = 40) {
   return p;
 }
 
-struct Planes {
+struct NoisyPlanes {
   std::vector<float> r, g, b, rod, local;
   std::vector<double> n;
   PixelRows rows() { return {r.data(), g.data(), b.data(), nullptr, nullptr, nullptr, nullptr, r.size()}; }
@@ -36,10 +36,10 @@ struct Planes {
 };
 
 // Light from a thousandth of La to a lamp's; some below 0, as other gamuts' colours are. n within its bounds.
-Planes drawn(const RodNoiseParameters& p, std::size_t count, unsigned seed) {
+NoisyPlanes drawn_with_noise(const RodNoiseParameters& p, std::size_t count, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> decades(-3, 4), share(-0.05, 1), field(-4.9, 4.9);
-  Planes out;
+  NoisyPlanes out;
   for (std::size_t i = 0; i < count; ++i) {
     const double level = std::pow(10.0, decades(random));
     for (std::vector<float>* plane : {&out.r, &out.g, &out.b})
@@ -58,7 +58,7 @@ struct Judged {
 };
 
 // What n makes of a pixel as rod_noise.h writes it, with S' by its own square.
-Judged judged(const RodNoiseParameters& p, const Planes& in, std::size_t i) {
+Judged judged(const RodNoiseParameters& p, const NoisyPlanes& in, std::size_t i) {
   const RodPool pool = rod_pool(p);
   const Exact white = OperatorConstants(p.eye).rod_white, unit = p.eye.white_luminance;
   const Exact s = 2.4648L * std::max(0.0f, in.rod[i]) / white * unit, mu = s + pool.dark;
@@ -94,9 +94,9 @@ TEST_P(NoiseBatchTest, is_the_formula) {
   double worst = 0, cancelled = 0;
   std::size_t changed = 0;
   for (const double la : {1e-5, 1e-4, 1e-3, 2.5e-3}) {
-    const RodNoiseParameters p = at(la);
-    const Planes in = drawn(p, 20000, 5);
-    Planes out = in;
+    const RodNoiseParameters p = noise_at(la);
+    const NoisyPlanes in = drawn_with_noise(p, 20000, 5);
+    NoisyPlanes out = in;
     NoiseBatch(p, GetParam()).apply(out.rows(), out.received(), out.n.data());
     for (std::size_t i = 0; i < in.r.size(); ++i) {
       const Judged e = judged(p, in, i);
@@ -120,20 +120,19 @@ TEST_P(NoiseBatchTest, is_the_formula) {
 INSTANTIATE_TEST_SUITE_P(Both, NoiseBatchTest, testing::Values(Precision::single, Precision::dual));
 
 TEST(NoiseBatch, every_target_and_every_length_gives_the_same_bits) {
-  const RodNoiseParameters p = at(3e-4);
+  const RodNoiseParameters p = noise_at(3e-4);
   for (const Precision precision : {Precision::single, Precision::dual}) {
     const NoiseBatch batch(p, precision);
-    const Planes in = drawn(p, 1031, 3);
-    Planes all = in;
+    const NoisyPlanes in = drawn_with_noise(p, 1031, 3);
+    NoisyPlanes all = in;
     std::vector<std::uint8_t> touched(in.r.size());
     batch.receive(all.rows(), all.received());
     batch.apply(all.rows(), all.received(), all.n.data(), touched.data());
     for (std::size_t i = 0; i < in.r.size(); ++i)
       EXPECT_EQ(touched[i] != 0, all.r[i] != in.r[i] || all.g[i] != in.g[i] || all.b[i] != in.b[i]);
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-      hwy::SetSupportedTargetsForTest(target);
+    test::on_every_target([&](const char* target) {
       for (const std::size_t step : {std::size_t{1}, std::size_t{7}, std::size_t{300}, in.r.size()}) {
-        Planes pieces = in;
+        NoisyPlanes pieces = in;
         for (std::size_t i = 0; i < in.r.size(); i += step) {
           const std::size_t count = std::min(step, in.r.size() - i);
           const PixelRows rows = {pieces.r.data() + i,
@@ -148,21 +147,20 @@ TEST(NoiseBatch, every_target_and_every_length_gives_the_same_bits) {
           batch.receive(rows, received);
           batch.apply(rows, received, pieces.n.data() + i);
         }
-        EXPECT_EQ(pieces.rod, all.rod) << hwy::TargetName(target) << step;
-        EXPECT_EQ(pieces.local, all.local) << hwy::TargetName(target) << step;
-        EXPECT_EQ(pieces.r, all.r) << hwy::TargetName(target) << step;
-        EXPECT_EQ(pieces.g, all.g) << hwy::TargetName(target) << step;
-        EXPECT_EQ(pieces.b, all.b) << hwy::TargetName(target) << step;
+        EXPECT_EQ(pieces.rod, all.rod) << target << step;
+        EXPECT_EQ(pieces.local, all.local) << target << step;
+        EXPECT_EQ(pieces.r, all.r) << target << step;
+        EXPECT_EQ(pieces.g, all.g) << target << step;
+        EXPECT_EQ(pieces.b, all.b) << target << step;
       }
-    }
-    hwy::SetSupportedTargetsForTest(0);
+    });
   }
 }
 
 TEST(NoiseBatch, receives_rods_and_local_luminance) {
-  RodNoiseParameters p = at(1e-3);
+  RodNoiseParameters p = noise_at(1e-3);
   p.rod_adaptation = 0.05;
-  Planes planes = drawn(p, 100, 9);
+  NoisyPlanes planes = drawn_with_noise(p, 100, 9);
   for (std::size_t i = 0; i < 100; ++i) {
     const Vec3<double> xyz = test::rec709 * Vec3<double>{planes.r[i], planes.g[i], planes.b[i]};
     const double rod = rod_signal_per_scotopic_luminance() *
@@ -183,13 +181,13 @@ TEST(NoiseBatch, receives_rods_and_local_luminance) {
 
 TEST(NoiseBatch, pixels_that_are_not_finite_pass_and_say_so) {
   constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
-  const RodNoiseParameters p = at(1e-4);
-  Planes planes{{inf, nan, 1, 1, 0x1p121f},
-                {1, 1, -inf, 1, 1},
-                {1, 1, 1, 1, 1},
-                {0, 0, 0, 0, 0},
-                {0, 0, 0, 0, 0},
-                {2, 2, 2, 2, 2}};
+  const RodNoiseParameters p = noise_at(1e-4);
+  NoisyPlanes planes{{inf, nan, 1, 1, 0x1p121f},
+                     {1, 1, -inf, 1, 1},
+                     {1, 1, 1, 1, 1},
+                     {0, 0, 0, 0, 0},
+                     {0, 0, 0, 0, 0},
+                     {2, 2, 2, 2, 2}};
   std::vector<std::uint8_t> touched(5);
   const NoiseBatch batch(p);
   batch.receive(planes.rows(), planes.received());
@@ -202,11 +200,11 @@ TEST(NoiseBatch, pixels_that_are_not_finite_pass_and_say_so) {
 }
 
 TEST(NoiseBatch, where_noise_is_not_called_for_no_bit_changes) {
-  const RodNoiseParameters p = at(0.003);
+  const RodNoiseParameters p = noise_at(0.003);
   ASSERT_FALSE(rod_noise_need(p).needed);
   for (const Precision precision : {Precision::single, Precision::dual}) {
-    Planes planes = drawn(p, 5000, 1);
-    const Planes in = planes;
+    NoisyPlanes planes = drawn_with_noise(p, 5000, 1);
+    const NoisyPlanes in = planes;
     NoiseBatch(p, precision).apply(planes.rows(), planes.received(), planes.n.data());
     EXPECT_EQ(planes.r, in.r);
     EXPECT_EQ(planes.g, in.g);

@@ -51,10 +51,10 @@ class Glare : public ::testing::Test {
   std::string folder_;
 };
 
-const std::vector<std::string> seen = {"--adaptation", "0.1", "--ppd", "20"};
+const std::vector<std::string> viewing = {"--adaptation", "0.1", "--ppd", "20"};
 
 std::vector<std::string> with(std::vector<std::string> more) {
-  more.insert(more.begin(), seen.begin(), seen.end());
+  more.insert(more.begin(), viewing.begin(), viewing.end());
   return more;
 }
 

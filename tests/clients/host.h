@@ -24,6 +24,8 @@ std::string quoted(const std::string& text);
 
 /// A folder of this process's own; removed when it ends well.
 const std::string& work_folder();
+/// A file in it.
+inline std::string output(const std::string& name) { return work_folder() + "/" + name; }
 
 /// RGBA float, four values a pixel.
 using Pixels = std::vector<float>;

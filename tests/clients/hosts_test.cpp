@@ -21,8 +21,6 @@ namespace {
 const double cpu_tolerance = programs_have_this_ocio() ? 2e-6 : 2e-3;
 const double gpu_tolerance = programs_have_this_ocio() ? 1e-4 : 2e-3;
 
-std::string output(const std::string& name) { return work_folder() + "/" + name; }
-
 /// Runs, and compares the file it must have written.
 void expect_output(const std::string& what, const std::string& command, const std::string& file,
                    const Pixels& wanted, double tolerance = cpu_tolerance) {

@@ -15,8 +15,6 @@ namespace {
 
 const std::string profiles = "/usr/share/color/icc/";
 
-std::string output(const std::string& name) { return work_folder() + "/" + name; }
-
 /// A chart of 16 x 16 squares of 8 pixels: hues and greys inside sRGB, 2 % to white. Squares are whole blocks
 /// of JPEG.
 const std::string& chart() {

@@ -17,7 +17,7 @@ namespace {
 
 namespace OCIO = OCIO_NAMESPACE;
 
-std::string saved(const OCIO::ConstConfigRcPtr& config, const std::string& name) {
+std::string saved_config(const OCIO::ConstConfigRcPtr& config, const std::string& name) {
   const std::string file = ::testing::TempDir() + "/" + std::to_string(getpid()) + name;
   std::ofstream stream(file);
   config->serialize(stream);
@@ -40,7 +40,7 @@ TEST(BaseConfig, is_valid_and_of_version_two_with_every_role_that_hosts_ask_for)
 }
 
 TEST(BaseConfig, survives_being_written_and_read) {
-  const ColourConfig read = ColourConfig::from_file(saved(make_base_config(), "base.ocio"));
+  const ColourConfig read = ColourConfig::from_file(saved_config(make_base_config(), "base.ocio"));
   EXPECT_EQ(read.working_space(), "Linear Rec.709 (sRGB)");
   EXPECT_EQ(read.working_gamut(), "rec709");
 }
@@ -55,7 +55,7 @@ TEST(ColourConfig, any_scene_linear_space_is_found_as_xyz) {
   for (const NamedPrimaries& set : known_primaries()) {
     const OCIO::ConfigRcPtr config = make_base_config();
     config->setRole("scene_linear", std::string(set.label).c_str());
-    const ColourConfig found = ColourConfig::from_file(saved(config, "working.ocio"));
+    const ColourConfig found = ColourConfig::from_file(saved_config(config, "working.ocio"));
     EXPECT_EQ(found.working_gamut(), set.name);
   }
 }
@@ -64,16 +64,16 @@ TEST(ColourConfig, an_active_display_that_is_not_there_is_no_reason_to_refuse_th
   const OCIO::ConfigRcPtr config = make_base_config();
   config->setActiveDisplays("None, srgb - display");
   EXPECT_THROW(config->validate(), OCIO::Exception);
-  const ColourConfig read = ColourConfig::from_file(saved(config, "active.ocio"));
+  const ColourConfig read = ColourConfig::from_file(saved_config(config, "active.ocio"));
   EXPECT_EQ(read.ocio()->getNumDisplays(), 1);
   config->setActiveDisplays("None");
-  EXPECT_THROW((void)ColourConfig::from_file(saved(config, "none.ocio")), Error);
+  EXPECT_THROW((void)ColourConfig::from_file(saved_config(config, "none.ocio")), Error);
 }
 
 TEST(ColourConfig, xyz_is_found_by_whichever_interchange_the_config_has) {
   const OCIO::ConfigRcPtr config = make_base_config();
   config->setRole("aces_interchange", nullptr);
-  EXPECT_EQ(ColourConfig::from_file(saved(config, "xyz.ocio")).working_gamut(), "rec709");
+  EXPECT_EQ(ColourConfig::from_file(saved_config(config, "xyz.ocio")).working_gamut(), "rec709");
 }
 
 // As Blender 5 has it: scene_linear is defined through the display-referred XYZ, and a tone map through
@@ -138,7 +138,7 @@ TEST(ColourConfig, a_tone_map_on_the_way_to_the_display_is_not_taken_for_a_matri
   config->addColorSpace(linear);
   config->setRole("scene_linear", "lin");
   try {
-    ColourConfig::from_file(saved(config, "tone.ocio"));
+    ColourConfig::from_file(saved_config(config, "tone.ocio"));
     FAIL() << "no error";
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ExitCode::config);

@@ -21,7 +21,7 @@ namespace {
 
 const Matrix3<double> rec709 = gamut_xyz_matrix("rec709").value();
 
-std::string saved(cmsHPROFILE profile, const std::string& name) {
+std::string saved_profile(cmsHPROFILE profile, const std::string& name) {
   const std::string file = test::temporary(name);
   EXPECT_TRUE(cmsSaveProfileToFile(profile, file.c_str()));
   cmsCloseProfile(profile);
@@ -36,7 +36,7 @@ std::string wide_gamut() {
   cmsToneCurve* const curves[3] = {curve, curve, curve};
   cmsHPROFILE profile = cmsCreateRGBProfile(&white, &primaries, curves);
   cmsFreeToneCurve(curve);
-  return saved(profile, "wide.icc");
+  return saved_profile(profile, "wide.icc");
 }
 
 /// A printer whose tables say which intent was asked for: device value = a share of the L* of what comes in.
@@ -67,7 +67,7 @@ std::string printer_of_shares(cmsColorSpaceSignature space = cmsSigRgbData) {
     cmsPipelineFree(table);
   }
   cmsWriteTag(profile, cmsSigMediaWhitePointTag, cmsD50_XYZ());
-  return saved(profile, "printer.icc");
+  return saved_profile(profile, "printer.icc");
 }
 
 Vec3<float> device(const IccProfile& profile, Vec3<float> rgb) {
@@ -161,13 +161,13 @@ TEST(IccProfile, what_is_no_profile_of_an_rgb_device_is_refused) {
   expect_refused(empty, "no ICC profile");
   expect_refused(test::temporary("none.icc"), "cannot be read");
   expect_refused(std::filesystem::temp_directory_path().string(), "");
-  expect_refused(saved(cmsCreateLab4Profile(nullptr), "lab.icc"), "of Lab values");
+  expect_refused(saved_profile(cmsCreateLab4Profile(nullptr), "lab.icc"), "of Lab values");
   expect_refused(printer_of_shares(cmsSigCmykData), "of CMYK values");
   const cmsCIExyY white = {0.3127, 0.3290, 1};
   cmsToneCurve* curve = cmsBuildGamma(nullptr, 2.2);
-  expect_refused(saved(cmsCreateGrayProfile(&white, curve), "grey.icc"), "of GRAY values");
+  expect_refused(saved_profile(cmsCreateGrayProfile(&white, curve), "grey.icc"), "of GRAY values");
   cmsFreeToneCurve(curve);
-  expect_refused(saved(cmsCreateInkLimitingDeviceLink(cmsSigCmykData, 200), "link.icc"), "");
+  expect_refused(saved_profile(cmsCreateInkLimitingDeviceLink(cmsSigCmykData, 200), "link.icc"), "");
 }
 
 TEST(IccProfile, a_damaged_profile_is_refused_or_usable_and_never_more) {

@@ -4,29 +4,23 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <set>
 #include <sstream>
 
 #include "faults/inputs.h"
 #include "faults/sweep.h"
+#include "support/file_bytes.h"
 
 namespace scotopic::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const std::string& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
 /// Lines that the shim logged, of one kind.
 std::set<std::string> logged(const std::string& log, const std::string& kind) {
   std::set<std::string> out;
-  std::istringstream lines(text_of(log));
+  std::istringstream lines(bytes_of(log));
   for (std::string line; std::getline(lines, line);)
     if (line.rfind(kind + " ", 0) == 0) out.insert(line.substr(kind.size() + 1));
   return out;

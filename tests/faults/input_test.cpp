@@ -17,12 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const WritingVerb& verb(const std::string& name) {
-  for (const WritingVerb& v : writing_verbs())
-    if (v.name == name) return v;
-  throw std::logic_error("no such verb");
-}
-
 TEST(Reading, a_broken_disk_is_an_error) {
   Seen seen;
   const Fault fault = {"EIO at the k-th read", "read", std::to_string(EIO), true, {0, 3, 5, 6}};

@@ -126,14 +126,14 @@ std::string tiff_with(std::uint16_t tag, std::uint16_t type, std::uint32_t value
   return tiff({{tag, tiff_entry(tag, type, 1, value)}});
 }
 
-struct Row {
+struct MalformedImage {
   const char* fault;
   std::string bytes;
   int code;
   const char* says;
 };
 
-std::vector<Row> exr_rows() {
+std::vector<MalformedImage> exr_rows() {
   const auto window = [](std::int32_t x0, std::int32_t y0, std::int32_t x1, std::int32_t y1) {
     return exr([&](Exr& e) { e.window = attribute("dataWindow", "box2i", box(x0, y0, x1, y1)); });
   };
@@ -243,7 +243,7 @@ std::vector<Row> exr_rows() {
   };
 }
 
-std::vector<Row> other_rows() {
+std::vector<MalformedImage> other_rows() {
   const std::string jpeg_start = "\xff\xd8\xff\xe0";
   std::string jpeg_size = "\xff\xd8\xff\xc0" + std::string("\0\x11\x08", 3) + "\xff\xff\xff\xff" +
                           std::string("\x03\x01\x11\0\x02\x11\0\x03\x11\0", 10);
@@ -302,8 +302,8 @@ std::vector<Row> other_rows() {
   };
 }
 
-std::vector<Row> strange_rows() {
-  std::vector<Row> rows = {{"empty", "", 3, "is empty"}};
+std::vector<MalformedImage> strange_rows() {
+  std::vector<MalformedImage> rows = {{"empty", "", 3, "is empty"}};
   for (const auto& [name, start] :
        std::vector<std::pair<const char*, std::string>>{{"GIF", "GIF89a"},
                                                         {"BMP", "BM"},
@@ -334,10 +334,10 @@ std::vector<Row> strange_rows() {
   return rows;
 }
 
-void check_all(const std::vector<Row>& rows, const char* what) {
+void check_all(const std::vector<MalformedImage>& rows, const char* what) {
   const std::string folder = work_folder("malformed");
   long wrong = 0;
-  for (const Row& row : rows) {
+  for (const MalformedImage& row : rows) {
     const std::string file = folder + "/in";
     std::ofstream(file, std::ios::binary) << row.bytes;
     Attempt it;

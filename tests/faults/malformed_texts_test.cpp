@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Row {
+struct MalformedText {
   const char* fault;
   std::string text;
   int code = 6;
@@ -26,7 +26,7 @@ std::string repeated(const std::string& text, int count) {
 }
 
 /// A config with one space more, "Odd", and more text at its end.
-std::string config(
+std::string config_text(
     const std::string& transform, const std::string& more = "", const std::string& version = "2",
     const std::string& roles = "  scene_linear: Lin\n  default: Lin\n  aces_interchange: Lin\n") {
   return "ocio_profile_version: " + version + "\nsearch_path: .\nroles:\n" + roles +
@@ -40,8 +40,8 @@ std::string matrix(const std::string& numbers) { return "!<MatrixTransform> {mat
 const std::string unit = "1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1";
 
 /// Each is taken as --config, with --colorspace Odd.
-std::vector<Row> config_rows() {
-  const std::string good = config(matrix(unit));
+std::vector<MalformedText> config_rows() {
+  const std::string good = config_text(matrix(unit));
   return {
       {"empty", ""},
       {"no YAML", "hello, night\n"},
@@ -52,15 +52,15 @@ std::vector<Row> config_rows() {
       {"tabs for indents", "ocio_profile_version: 2\nroles:\n\tscene_linear: Lin\n"},
       {"a list where a map should be", "- a\n- b\n"},
       {"no version", good.substr(good.find('\n') + 1)},
-      {"version 0", config(matrix(unit), "", "0")},
-      {"version 3", config(matrix(unit), "", "3")},
-      {"version 2.9", config(matrix(unit), "", "2.9")},
-      {"version that is no number", config(matrix(unit), "", "two")},
+      {"version 0", config_text(matrix(unit), "", "0")},
+      {"version 3", config_text(matrix(unit), "", "3")},
+      {"version 2.9", config_text(matrix(unit), "", "2.9")},
+      {"version that is no number", config_text(matrix(unit), "", "two")},
       {"cut in the middle", good.substr(0, good.size() / 2)},
-      {"no roles", config(matrix(unit), "", "2", "")},
-      {"no scene_linear", config(matrix(unit), "", "2", "  default: Lin\n"), 6, "scene_linear"},
-      {"role of a space that is not there", config(matrix(unit), "", "2", "  scene_linear: None\n")},
-      {"no way to XYZ", config(matrix(unit), "", "2", "  scene_linear: Lin\n  default: Lin\n"), 6,
+      {"no roles", config_text(matrix(unit), "", "2", "")},
+      {"no scene_linear", config_text(matrix(unit), "", "2", "  default: Lin\n"), 6, "scene_linear"},
+      {"role of a space that is not there", config_text(matrix(unit), "", "2", "  scene_linear: None\n")},
+      {"no way to XYZ", config_text(matrix(unit), "", "2", "  scene_linear: Lin\n  default: Lin\n"), 6,
        "interchange"},
       {"no spaces",
        "ocio_profile_version: 2\nroles:\n  scene_linear: Lin\ndisplays:\n  D:\n    - !<View> {name: V, "
@@ -68,34 +68,35 @@ std::vector<Row> config_rows() {
       {"no displays",
        "ocio_profile_version: 2\nroles:\n  scene_linear: Lin\ncolorspaces:\n  - !<ColorSpace>\n    name: "
        "Lin\n"},
-      {"two spaces of one name", config(matrix(unit), "  - !<ColorSpace>\n    name: Odd\n")},
-      {"space without a name", config(matrix(unit), "  - !<ColorSpace>\n    family: x\n")},
+      {"two spaces of one name", config_text(matrix(unit), "  - !<ColorSpace>\n    name: Odd\n")},
+      {"space without a name", config_text(matrix(unit), "  - !<ColorSpace>\n    family: x\n")},
       {"view of a space that is not there",
        "ocio_profile_version: 2\nroles:\n  scene_linear: Lin\n  default: Lin\n  aces_interchange: "
        "Lin\ndisplays:\n  D:\n    - !<View> {name: V, colorspace: None}\ncolorspaces:\n  - !<ColorSpace>\n   "
        " name: Lin\n"},
-      {"unknown transform", config("!<WarpTransform> {}")},
-      {"matrix of three numbers", config(matrix("1, 2, 3"))},
-      {"matrix of words", config(matrix("a, b, c, d, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1"))},
-      {"matrix without inverse", config(matrix("0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0"))},
-      {"matrix of no numbers", config(matrix(".nan, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1"))},
-      {"matrix of infinities", config(matrix(".inf, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1"))},
-      {"exponent 0", config("!<ExponentTransform> {value: [0, 0, 0, 1]}")},
-      {"log of base 1", config("!<LogTransform> {base: 1}")},
-      {"log of base -2", config("!<LogTransform> {base: -2}")},
+      {"unknown transform", config_text("!<WarpTransform> {}")},
+      {"matrix of three numbers", config_text(matrix("1, 2, 3"))},
+      {"matrix of words", config_text(matrix("a, b, c, d, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1"))},
+      {"matrix without inverse", config_text(matrix("0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0"))},
+      {"matrix of no numbers", config_text(matrix(".nan, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1"))},
+      {"matrix of infinities", config_text(matrix(".inf, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1"))},
+      {"exponent 0", config_text("!<ExponentTransform> {value: [0, 0, 0, 1]}")},
+      {"log of base 1", config_text("!<LogTransform> {base: 1}")},
+      {"log of base -2", config_text("!<LogTransform> {base: -2}")},
       {"range inside out",
-       config("!<RangeTransform> {min_in_value: 1, max_in_value: 0, min_out_value: 0, max_out_value: 1}")},
-      {"LUT that is not there", config("!<FileTransform> {src: none.clf}")},
-      {"LUT without a name", config("!<FileTransform> {src: \"\"}")},
-      {"LUT that is a folder", config("!<FileTransform> {src: .}")},
-      {"LUT that is a device", config("!<FileTransform> {src: /dev/zero}"), 6, "not a regular file"},
-      {"a space that leads to itself", config("!<ColorSpaceTransform> {src: Odd, dst: Lin}")},
-      {"a space that leads nowhere", config("!<ColorSpaceTransform> {src: None, dst: Lin}")},
-      {"a look that is not there", config("!<LookTransform> {src: Lin, dst: Lin, looks: None}")},
-      {"look without a process space", config(matrix(unit), "looks:\n  - !<Look>\n    name: L\n")},
+       config_text(
+           "!<RangeTransform> {min_in_value: 1, max_in_value: 0, min_out_value: 0, max_out_value: 1}")},
+      {"LUT that is not there", config_text("!<FileTransform> {src: none.clf}")},
+      {"LUT without a name", config_text("!<FileTransform> {src: \"\"}")},
+      {"LUT that is a folder", config_text("!<FileTransform> {src: .}")},
+      {"LUT that is a device", config_text("!<FileTransform> {src: /dev/zero}"), 6, "not a regular file"},
+      {"a space that leads to itself", config_text("!<ColorSpaceTransform> {src: Odd, dst: Lin}")},
+      {"a space that leads nowhere", config_text("!<ColorSpaceTransform> {src: None, dst: Lin}")},
+      {"a look that is not there", config_text("!<LookTransform> {src: Lin, dst: Lin, looks: None}")},
+      {"look without a process space", config_text(matrix(unit), "looks:\n  - !<Look>\n    name: L\n")},
       {"look of a space that is not there",
-       config(matrix(unit), "looks:\n  - !<Look>\n    name: L\n    process_space: None\n")},
-      {"unknown built-in", config("!<BuiltinTransform> {style: NO_SUCH_STYLE}")},
+       config_text(matrix(unit), "looks:\n  - !<Look>\n    name: L\n    process_space: None\n")},
+      {"unknown built-in", config_text("!<BuiltinTransform> {style: NO_SUCH_STYLE}")},
   };
 }
 
@@ -212,7 +213,7 @@ std::vector<LutRow> lut_rows() {
 }
 
 /// Each is --illuminant.
-std::vector<Row> spectrum_rows() {
+std::vector<MalformedText> spectrum_rows() {
   return {
       {"empty", "", 3, "no spectrum"},
       {"no numbers", "hello\nnight\n", 3, "line 2"},
@@ -258,11 +259,11 @@ class MalformedTexts : public ::testing::Test {
 std::string seen(long wrong) { return wrong == 0 ? "as expected" : "WRONG " + std::to_string(wrong); }
 
 TEST_F(MalformedTexts, configs) {
-  write("good.ocio", config(matrix(unit)));
+  write("good.ocio", config_text(matrix(unit)));
   EXPECT_EQ(refused({"--config", folder_ + "/good.ocio", "--colorspace", "Odd"}, 0, ""), "wrote")
       << "without a fault";
   long wrong = 0;
-  for (const Row& row : config_rows()) {
+  for (const MalformedText& row : config_rows()) {
     write("bad.ocio", row.text);
     const std::string broken =
         refused({"--config", folder_ + "/bad.ocio", "--colorspace", "Odd"}, row.code, row.says);
@@ -275,14 +276,14 @@ TEST_F(MalformedTexts, configs) {
 
 TEST_F(MalformedTexts, luts) {
   write("lut.clf", lut3d("2 2 2 3", cube_numbers));
-  write("luts.ocio", config("!<FileTransform> {src: lut.clf}"));
+  write("luts.ocio", config_text("!<FileTransform> {src: lut.clf}"));
   EXPECT_EQ(refused({"--config", folder_ + "/luts.ocio", "--colorspace", "Odd"}, 0, ""), "wrote")
       << "without a fault";
   long wrong = 0;
   for (const LutRow& row : lut_rows()) {
     const std::string name = std::string("bad.") + row.extension;
     write(name, row.text);
-    write("luts.ocio", config("!<FileTransform> {src: " + name + "}"));
+    write("luts.ocio", config_text("!<FileTransform> {src: " + name + "}"));
     const std::string broken = refused({"--config", folder_ + "/luts.ocio", "--colorspace", "Odd"}, 6, "");
     wrong += !broken.empty();
     EXPECT_EQ(broken, "") << row.fault;
@@ -293,7 +294,7 @@ TEST_F(MalformedTexts, luts) {
 
 TEST_F(MalformedTexts, sizes_over_the_limit) {
   write("lut.clf", lut3d("2 2 2 3", cube_numbers));
-  write("luts.ocio", config("!<FileTransform> {src: lut.clf}"));
+  write("luts.ocio", config_text("!<FileTransform> {src: lut.clf}"));
   const std::string luts = folder_ + "/luts.ocio";
   EXPECT_EQ(refused({"--config", luts, "--colorspace", "Odd", "--max-lut-size", "100"}, 4, "--max-lut-size"),
             "");
@@ -305,7 +306,7 @@ TEST_F(MalformedTexts, sizes_over_the_limit) {
 
 TEST_F(MalformedTexts, spectra) {
   long wrong = 0;
-  for (const Row& row : spectrum_rows()) {
+  for (const MalformedText& row : spectrum_rows()) {
     write("lamp.csv", row.text);
     const std::string broken = refused({"--illuminant", folder_ + "/lamp.csv"}, row.code, row.says);
     wrong += !broken.empty();

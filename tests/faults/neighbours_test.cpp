@@ -23,7 +23,7 @@ struct Neighbour {
   std::string output;
 };
 
-const std::string config = std::string(SCOTOPIC_SOURCE_DIR) + "/ocio_config/config.ocio";
+const std::string shipped_config = std::string(SCOTOPIC_SOURCE_DIR) + "/ocio_config/config.ocio";
 
 std::vector<Neighbour> neighbours() {
   return {
@@ -40,7 +40,7 @@ std::vector<Neighbour> neighbours() {
        "out.cube"},
       {"ociobakelut",
        "/usr/bin/ociobakelut",
-       {"--iconfig", config, "--inputspace", "ACEScct", "--outputspace", "sRGB - Display", "--format",
+       {"--iconfig", shipped_config, "--inputspace", "ACEScct", "--outputspace", "sRGB - Display", "--format",
         "iridas_cube", "--cubesize", "17", "@/out.cube"},
        "out.cube"}};
 }
@@ -78,7 +78,7 @@ class Neighbours : public ::testing::TestWithParam<Neighbour> {
     for (std::string& a : out.arguments)
       if (a.rfind("@/", 0) == 0) a = folder_ + a.substr(1);
     out.folder = folder_;
-    out.environment = {"OCIO=" + config};
+    out.environment = {"OCIO=" + shipped_config};
     return out;
   }
   void count(const Attempt& faulty, Counted& out) const {

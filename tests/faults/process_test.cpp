@@ -13,12 +13,6 @@
 namespace scotopic::test {
 namespace {
 
-const WritingVerb& verb(const std::string& name) {
-  for (const WritingVerb& v : writing_verbs())
-    if (v.name == name) return v;
-  throw std::logic_error("no such verb");
-}
-
 TEST(Memory, the_kth_allocation_fails) {
   if (!long_form()) GTEST_SKIP() << "NOTICE: only in the long form (scripts/faults.sh)";
   for (const bool on : {false, true}) {

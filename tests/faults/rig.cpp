@@ -14,6 +14,7 @@
 #include <fstream>
 #include <regex>
 #include <sstream>
+#include <stdexcept>
 #include <thread>
 
 #include "faults/inputs.h"
@@ -174,6 +175,12 @@ const std::vector<WritingVerb>& writing_verbs() {
        true},
   };
   return verbs;
+}
+
+const WritingVerb& verb(const std::string& name) {
+  for (const WritingVerb& v : writing_verbs())
+    if (v.name == name) return v;
+  throw std::logic_error("no such verb");
 }
 
 void prepare(const WritingVerb& verb, const std::string& folder) {

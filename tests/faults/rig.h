@@ -54,6 +54,7 @@ struct WritingVerb {
   bool slow = false;
 };
 const std::vector<WritingVerb>& writing_verbs();
+const WritingVerb& verb(const std::string& name);
 
 /// A folder with the verb's inputs and its old files.
 void prepare(const WritingVerb& verb, const std::string& folder);

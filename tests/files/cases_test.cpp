@@ -15,10 +15,10 @@
 namespace scotopic {
 namespace {
 
-bool says(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
+using test::says;
 
 /// A config whose default rule and bytes are encoded, and whose role for floats says that they are linear.
-void write_config(const std::string& file, const std::string& more_roles) {
+void write_encoded_config(const std::string& file, const std::string& more_roles) {
   test::write_bytes(
       file,
       "ocio_profile_version: 2\n"
@@ -35,7 +35,7 @@ void write_config(const std::string& file, const std::string& more_roles) {
 TEST(Cases, the_role_default_float_tells_of_floats) {
   test::write_flat_exr(test::place("in.exr"), {0.18, 0.18, 0.18});
   const auto adaptation = [](const std::string& roles) {
-    write_config(test::place("c.ocio"), roles);
+    write_encoded_config(test::place("c.ocio"), roles);
     const test::Outcome run = test::run_program({"explain", test::place("in.exr"), "--white-luminance", "1",
                                                  "--config", test::place("c.ocio"), "--json"});
     EXPECT_EQ(run.exit_code, 0) << run.err;
@@ -61,11 +61,11 @@ TEST(Cases, fluorescence_is_said_to_be_left_out) {
   for (const float v : p) EXPECT_NEAR(v, 0.5f, 0.1f);
 }
 
-constexpr int width = 128, height = 64;
+constexpr int picture_width = 128, picture_height = 64;
 
 /// Rows of 0.05, 0.065, 0.05, 0.035 and so on, or a row of noise by columns, turned by `roll` of them.
 void write_picture(const std::string& file, float aspect, int roll, const char* panorama) {
-  Imf::Header header(width, height, aspect);
+  Imf::Header header(picture_width, picture_height, aspect);
   if (panorama && panorama == std::string("envmap"))
     Imf::addEnvmap(header, Imf::ENVMAP_LATLONG);
   else if (panorama)
@@ -73,9 +73,9 @@ void write_picture(const std::string& file, float aspect, int roll, const char* 
         panorama,
         Imf::StringAttribute(panorama == std::string("textureformat") ? "LatLong Environment" : "latlong"));
   std::vector<Imf::Rgba> pixels;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const int at = (x + roll) % width;
+  for (int y = 0; y < picture_height; ++y)
+    for (int x = 0; x < picture_width; ++x) {
+      const int at = (x + roll) % picture_width;
       const float v = panorama ? 0.05f + 0.015f * static_cast<float>((at * 37 + y * 11) % 19 - 9) / 9
                                : 0.05f + 0.015f * static_cast<float>(y % 4 == 1   ? 1
                                                                      : y % 4 == 3 ? -1
@@ -83,8 +83,8 @@ void write_picture(const std::string& file, float aspect, int roll, const char* 
       pixels.emplace_back(v, v, v);
     }
   Imf::RgbaOutputFile out(file.c_str(), header, Imf::WRITE_RGB);
-  out.setFrameBuffer(pixels.data(), 1, width);
-  out.writePixels(height);
+  out.setFrameBuffer(pixels.data(), 1, picture_width);
+  out.writePixels(picture_height);
 }
 
 std::vector<std::string> detail(const char* what, const char* resolution, const char* value) {
@@ -114,7 +114,7 @@ test::Run blur(const std::string& in, const std::string& out, const char* what, 
 /// Steepest step between rows at mid-width.
 double steepest(const std::string& file) {
   double most = 0;
-  for (int y = 1; y < height; ++y)
+  for (int y = 1; y < picture_height; ++y)
     most = std::max(most, std::abs(static_cast<double>(test::pixel_of(file, {"R"}, 0, 64, y)[0]) -
                                    static_cast<double>(test::pixel_of(file, {"R"}, 0, 64, y - 1)[0])));
   return most;
@@ -136,12 +136,13 @@ TEST(Cases, a_panorama_has_no_seam_by_whatever_name_it_is_one) {
   for (const char* sign : {"envmap", "openexr:envmap", "textureformat"})
     for (const char* what : {"bilateral", "contrast"}) {
       write_picture(test::place("a.exr"), 1, 0, sign);
-      write_picture(test::place("b.exr"), 1, width / 2, sign);
+      write_picture(test::place("b.exr"), 1, picture_width / 2, sign);
       blur(test::place("a.exr"), test::place("ao.exr"), what, "--ppd", "60");
       blur(test::place("b.exr"), test::place("bo.exr"), what, "--ppd", "60");
-      for (int x = 0; x < width; ++x)
-        ASSERT_EQ(test::pixel_of(test::place("ao.exr"), {"R"}, 0, (x + width / 2) % width, 40),
-                  test::pixel_of(test::place("bo.exr"), {"R"}, 0, x, 40))
+      for (int x = 0; x < picture_width; ++x)
+        ASSERT_EQ(
+            test::pixel_of(test::place("ao.exr"), {"R"}, 0, (x + picture_width / 2) % picture_width, 40),
+            test::pixel_of(test::place("bo.exr"), {"R"}, 0, x, 40))
             << sign << " " << what << " column " << x;
       EXPECT_NE(test::pixel_of(test::place("ao.exr"), {"R"}, 0, 0, 40),
                 test::pixel_of(test::place("a.exr"), {"R"}, 0, 0, 40));

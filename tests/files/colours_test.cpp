@@ -15,7 +15,7 @@ namespace {
 using test::Rgb;
 
 /// Linear Rec.709 that was written, whatever the output's own space.
-Rgb light(const std::string& in, std::vector<std::string> more = {}, const std::string& says = "") {
+Rgb light_in_709(const std::string& in, std::vector<std::string> more = {}, const std::string& says = "") {
   more.insert(more.end(), {"-d", "float", "--output-colorspace", "Linear Rec.709 (sRGB)", "-v"});
   const std::string out = test::place("light.exr");
   const test::Run run = test::apply(in, out, more);
@@ -48,12 +48,12 @@ TEST(Colours, any_chromaticities_are_a_matrix) {
   test::write_flat_exr(file, {0, 1, 0}, [](Imf::Header& h) {
     Imf::addChromaticities(h, {{0.64f, 0.33f}, {0.21f, 0.71f}, {0.15f, 0.06f}, {0.3127f, 0.3290f}});
   });
-  expect_near(light(file, {}, "the file's chromaticities"), adobe_green, 1e-4, "Adobe RGB");
+  expect_near(light_in_709(file, {}, "the file's chromaticities"), adobe_green, 1e-4, "Adobe RGB");
   // DCI-P3 with its own white: Bradford takes (1, 1, 1) to (1, 1, 1).
   test::write_flat_exr(file, {1, 1, 1}, [](Imf::Header& h) {
     Imf::addChromaticities(h, {{0.68f, 0.32f}, {0.265f, 0.69f}, {0.15f, 0.06f}, {0.314f, 0.351f}});
   });
-  expect_near(light(file), {1, 1, 1}, 1e-5, "DCI-P3's white");
+  expect_near(light_in_709(file), {1, 1, 1}, 1e-5, "DCI-P3's white");
 }
 
 TEST(Colours, chromaticities_on_one_line_are_refused) {
@@ -126,7 +126,7 @@ TEST(Colours, identifiers_of_the_color_interop_forum_are_understood) {
   for (const NamedSpace& space : spaces) {
     test::write_flat_exr(file, space.pixel,
                          [&](Imf::Header& h) { h.insert("colorInteropID", Imf::StringAttribute(space.id)); });
-    expect_near(light(file, {}, space.id), space.wanted, 1e-4, space.id);
+    expect_near(light_in_709(file, {}, space.id), space.wanted, 1e-4, space.id);
   }
 }
 
@@ -152,8 +152,8 @@ TEST(Colours, the_container_flag_of_aces_holds_over_all_and_a_conflict_is_said) 
     h.insert("colorInteropID", Imf::StringAttribute("lin_rec709_scene"));
   });
   // ST 2065-1's red in BT.709.
-  expect_near(light(file, {}, "say different things of its colours"), {2.52169, -0.27648, -0.01538}, 2e-4,
-              "AP0");
+  expect_near(light_in_709(file, {}, "say different things of its colours"), {2.52169, -0.27648, -0.01538},
+              2e-4, "AP0");
 }
 
 TEST(Colours, stale_tags_of_a_space_that_changed_are_gone) {
@@ -192,8 +192,8 @@ TEST(Colours, profiles_of_tiff_png_and_jpeg_are_applied) {
   test::write_flat_oiio(test::place("in.jpg"), {0, 1, 0}, false, profile);
   test::write_bytes(test::place("in.png"), test::flat_png({0, 65535, 0}, {test::png_profile(profile)}));
   for (const char* name : {"in.tif", "in.png"})
-    expect_near(light(test::place(name), {}, "ICC profile"), adobe_green, 2e-4, name);
-  expect_near(light(test::place("in.jpg"), {}, "ICC profile"), adobe_green, 8e-3,
+    expect_near(light_in_709(test::place(name), {}, "ICC profile"), adobe_green, 2e-4, name);
+  expect_near(light_in_709(test::place("in.jpg"), {}, "ICC profile"), adobe_green, 8e-3,
               "JPEG");  // a code of 8 bits
 }
 
@@ -207,7 +207,7 @@ TEST(Colours, what_is_written_for_a_profile_reads_back_to_half_a_code) {
                   .exit_code,
               0);
     // Half a code of 16 bits of gamma 2.2 at 0.1: 1e-5 of light.
-    expect_near(light(test::place(name), {}, "ICC profile"), {0.3, 0.2, 0.1}, 2e-5, name);
+    expect_near(light_in_709(test::place(name), {}, "ICC profile"), {0.3, 0.2, 0.1}, 2e-5, name);
   }
 }
 
@@ -220,7 +220,7 @@ TEST(Colours, any_linear_space_is_stated_in_what_is_written_and_reads_back) {
                                              name == std::string("out.png") ? "uint16" : "float"};
       const test::Run run = test::apply(test::place("in.exr"), test::place(name), more);
       ASSERT_EQ(run.exit_code, 0) << run.err;
-      expect_near(light(test::place(name)), {0.3, 0.2, 0.1}, 1e-4, std::string(space) + " in " + name);
+      expect_near(light_in_709(test::place(name)), {0.3, 0.2, 0.1}, 1e-4, std::string(space) + " in " + name);
     }
 }
 
@@ -232,18 +232,19 @@ TEST(Colours, chunks_of_png_are_understood) {
   };
   const double v = 32768.0 / 65535;
   const auto grey = [](double x) { return Rgb{x, x, x}; };
-  expect_near(light(png(32768, {gamma_chunk(100000)}), {}, "gAMA"), grey(v), 1e-5, "gAMA 1");
-  expect_near(light(png(32768, {gamma_chunk(45455)})), grey(std::pow(v, 2.19998)), 1e-5, "gAMA .45455");
-  expect_near(light(png(32768, {{"sRGB", std::string(1, '\0')}, gamma_chunk(45455)}), {}, "sRGB"),
+  expect_near(light_in_709(png(32768, {gamma_chunk(100000)}), {}, "gAMA"), grey(v), 1e-5, "gAMA 1");
+  expect_near(light_in_709(png(32768, {gamma_chunk(45455)})), grey(std::pow(v, 2.19998)), 1e-5,
+              "gAMA .45455");
+  expect_near(light_in_709(png(32768, {{"sRGB", std::string(1, '\0')}, gamma_chunk(45455)}), {}, "sRGB"),
               grey(std::pow((v + 0.055) / 1.055, 2.4)), 1e-5, "sRGB");
-  expect_near(light(png(32768, {code_points(1, 13)}), {}, "cICP"), grey(std::pow((v + 0.055) / 1.055, 2.4)),
-              1e-5, "cICP sRGB");
-  expect_near(light(png(32768, {code_points(9, 8)})), grey(v), 1e-5, "cICP linear");
+  expect_near(light_in_709(png(32768, {code_points(1, 13)}), {}, "cICP"),
+              grey(std::pow((v + 0.055) / 1.055, 2.4)), 1e-5, "cICP sRGB");
+  expect_near(light_in_709(png(32768, {code_points(9, 8)})), grey(v), 1e-5, "cICP linear");
   // Narrow range: 16 bits of black 4096, white 60160.
-  expect_near(light(png(60160, {code_points(1, 8, 0)})), grey(1), 1e-5, "narrow white");
-  expect_near(light(png(4096, {code_points(1, 8, 0)})), grey(0), 1e-5, "narrow black");
+  expect_near(light_in_709(png(60160, {code_points(1, 8, 0)})), grey(1), 1e-5, "narrow white");
+  expect_near(light_in_709(png(4096, {code_points(1, 8, 0)})), grey(0), 1e-5, "narrow black");
   test::write_bytes(file, test::flat_png({0, 65535, 0}, {gamma_chunk(45455), adobe_chrm}));
-  expect_near(light(file, {}, "cHRM"), adobe_green, 1e-4, "cHRM");
+  expect_near(light_in_709(file, {}, "cHRM"), adobe_green, 1e-4, "cHRM");
 }
 
 TEST(Colours, pq_and_hlg_are_luminances_of_their_own) {

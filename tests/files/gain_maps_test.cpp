@@ -5,23 +5,18 @@
 
 #include <fstream>
 
-#include "files/made_files.h"
+#include "files/brothers/table.h"
 #include "support/file_bytes.h"
 
 namespace scotopic {
 namespace {
 
 using test::bytes_of;
+using test::with_segment;
 
 std::string jpeg() {
   test::write_flat_oiio(test::place("plain.jpg"), {0.5f, 0.25f, 0.75f}, false, "");
   return bytes_of(test::place("plain.jpg"));
-}
-
-/// A marker segment after SOI.
-std::string with_segment(std::string picture, char marker, const std::string& body) {
-  return picture.insert(2, std::string{'\xff', marker} +
-                               test::big_endian(static_cast<std::uint32_t>(body.size() + 2), 2) + body);
 }
 
 std::string xmp(const std::string& properties) {

@@ -54,7 +54,7 @@ TEST(Geometry, a_picture_is_turned_as_its_orientation_has_it) {
 }
 
 /// 2 x 2 pixels 1 2 / 3 4 of a quarter of red; 8-bit mantissas of exponent 128: value m/256.
-std::string radiance(const std::string& lines, const std::string& order) {
+std::string radiance_of_four(const std::string& lines, const std::string& order) {
   std::string out = "#?RADIANCE\n" + lines + "\n" + order + "\n";
   for (int i = 1; i <= 4; ++i) out += std::string({static_cast<char>(i * 32), 0, 0, static_cast<char>(128)});
   return out;
@@ -66,7 +66,7 @@ TEST(Geometry, rows_of_radiance_come_in_any_order) {
                                                                         {"-Y 2 -X 2", {2, 1, 4, 3}},
                                                                         {"+X 2 -Y 2", {1, 3, 2, 4}}};
   for (const auto& [order, wanted] : orders) {
-    test::write_bytes(test::place("in.hdr"), radiance("FORMAT=32-bit_rle_rgbe\n", order));
+    test::write_bytes(test::place("in.hdr"), radiance_of_four("FORMAT=32-bit_rle_rgbe\n", order));
     const test::Run done = test::apply(test::place("in.hdr"), test::place("out.exr"));
     ASSERT_EQ(done.exit_code, 0) << order << done.err;
     for (int i = 0; i < 4; ++i)
@@ -78,7 +78,7 @@ TEST(Geometry, rows_of_radiance_come_in_any_order) {
 
 TEST(Geometry, exposure_of_radiance_is_undone) {
   test::write_bytes(test::place("in.hdr"),
-                    radiance("EXPOSURE=0.5\nEXPOSURE=0.5\nFORMAT=32-bit_rle_rgbe\n", "-Y 2 +X 2"));
+                    radiance_of_four("EXPOSURE=0.5\nEXPOSURE=0.5\nFORMAT=32-bit_rle_rgbe\n", "-Y 2 +X 2"));
   ASSERT_EQ(test::apply(test::place("in.hdr"), test::place("out.exr")).exit_code, 0);
   EXPECT_NEAR(test::pixel_of(test::place("out.exr"), {"R"})[0], 4 / 8.0, 1e-2);
 }
@@ -86,8 +86,8 @@ TEST(Geometry, exposure_of_radiance_is_undone) {
 TEST(Geometry, primaries_and_xyz_of_radiance_are_understood) {
   test::write_bytes(
       test::place("in.hdr"),
-      radiance("PRIMARIES=0.64 0.33 0.21 0.71 0.15 0.06 0.3127 0.3290\nFORMAT=32-bit_rle_rgbe\n",
-               "-Y 2 +X 2"));
+      radiance_of_four("PRIMARIES=0.64 0.33 0.21 0.71 0.15 0.06 0.3127 0.3290\nFORMAT=32-bit_rle_rgbe\n",
+                       "-Y 2 +X 2"));
   const std::vector<std::string> in_709 = {"--output-colorspace", "Linear Rec.709 (sRGB)"};
   ASSERT_EQ(test::apply(test::place("in.hdr"), test::place("out.exr"), in_709).exit_code, 0);
   // Adobe RGB's red in BT.709: 1.39836 times as bright, and no green or blue.
@@ -132,7 +132,7 @@ TEST(Geometry, tiles_of_any_compression_and_all_levels_are_written) {
 
 /// Half a picture bright, half dark in steps of 2 CIELAB units or so, turned by `roll` columns; of pixels
 /// `aspect` wide.
-void write_texture(const std::string& file, int roll, float aspect, bool panorama, bool across) {
+void write_stripes(const std::string& file, int roll, float aspect, bool panorama, bool across) {
   constexpr int w = 96, h = 96;
   Imf::Header header(w, h, aspect);
   header.insert("whiteLuminance", Imf::FloatAttribute(0.05f));
@@ -154,8 +154,8 @@ const std::vector<std::string> blurred = {"--adaptation", "0.01", "--effects", "
                                           "--ppd",        "8",    "-d",        "float"};
 
 TEST(Geometry, a_panorama_has_no_seam) {
-  write_texture(test::place("a.exr"), 0, 1, true, true);
-  write_texture(test::place("b.exr"), 48, 1, true, true);
+  write_stripes(test::place("a.exr"), 0, 1, true, true);
+  write_stripes(test::place("b.exr"), 48, 1, true, true);
   std::vector<std::string> more = blurred;
   *(std::find(more.begin(), more.end(), "--ppd") + 1) = "30";
   for (const char* name : {"a", "b"})
@@ -183,7 +183,7 @@ double contrast(const std::string& file, bool across) {
 
 TEST(Geometry, pixels_that_are_twice_as_wide_as_high_are_blurred_over_twice_as_many_rows) {
   const auto run = [](float aspect, bool across, const char* ppd) {
-    write_texture(test::place("in.exr"), 0, aspect, false, across);
+    write_stripes(test::place("in.exr"), 0, aspect, false, across);
     std::vector<std::string> more = blurred;
     *(std::find(more.begin(), more.end(), "--ppd") + 1) = ppd;
     EXPECT_EQ(test::apply(test::place("in.exr"), test::place("out.exr"), more).exit_code, 0);

@@ -65,7 +65,7 @@ TEST(Hostile, deeply_nested_xmp_is_refused) {
   expect_one_line(test::apply(test::place("in.png"), test::place("out.exr")), 3, "zTXt");
 }
 
-void write_config(const std::string& file, const std::string& lut) {
+void write_lut_config(const std::string& file, const std::string& lut) {
   test::write_bytes(
       file,
       "ocio_profile_version: 2\nsearch_path: \".\"\n"
@@ -80,7 +80,7 @@ void write_config(const std::string& file, const std::string& lut) {
 TEST(Hostile, a_lut_that_opencolorio_reads_without_end_is_refused) {
   test::write_flat_exr(test::place("in.exr"), {1, 1, 1});
   test::write_bytes(test::place("x.csp"), "CSPLUTV100\n3D\nBEGIN METADATA\n");
-  write_config(test::place("c.ocio"), "x.csp");
+  write_lut_config(test::place("c.ocio"), "x.csp");
   for (const std::vector<std::string>& more :
        {std::vector<std::string>{"--display", "d/v"}, {"--colorspace", "x"}}) {
     std::vector<std::string> arguments = {"--config", test::place("c.ocio")};
@@ -93,7 +93,7 @@ TEST(Hostile, a_lut_that_opencolorio_reads_without_end_is_refused) {
 
 TEST(Hostile, a_damaged_profile_of_a_config_is_refused_at_once) {
   test::write_flat_exr(test::place("in.exr"), {1, 1, 1});
-  write_config(test::place("c.ocio"), "x.icc");
+  write_lut_config(test::place("c.ocio"), "x.icc");
   for (const std::string& profile : damaged_profiles()) {
     test::write_bytes(test::place("x.icc"), profile);
     const test::Run run = test::apply(test::place("in.exr"), test::place("out.exr"),

@@ -11,11 +11,12 @@
 namespace scotopic {
 namespace {
 
+using test::apply_parts;
 using test::FlatChannel;
 using test::FlatPart;
+using test::says;
 using Words = std::vector<std::string>;
 
-const Words night = {"--adaptation", "0.02", "--effects", "all"};
 const Words metered = {"--adaptation", "auto", "--white-luminance", "1"};
 
 void add(std::vector<FlatChannel>& to, const std::string& prefix, const test::Rgb& rgb) {
@@ -32,23 +33,13 @@ std::vector<FlatChannel> passes() {
   return out;
 }
 
-test::Run run(const std::vector<FlatPart>& parts, const Words& more, const Words& also = night,
-              const std::string& out = "out.exr") {
-  test::write_flat_exr(test::place("in.exr"), parts);
-  Words all = more;
-  all.insert(all.end(), also.begin(), also.end());
-  return test::apply(test::place("in.exr"), test::place(out), all);
-}
-
 std::vector<float> colour(const std::string& layer, int part = 0, const std::string& file = "out.exr") {
   const std::string prefix = layer.empty() ? "" : layer + ".";
   return test::pixel_of(test::place(file), {prefix + "R", prefix + "G", prefix + "B"}, part);
 }
 
-bool says(const test::Run& run, const std::string& text) { return run.err.find(text) != std::string::npos; }
-
 double adaptation_of(const std::vector<FlatPart>& parts, const Words& more) {
-  const test::Run done = run(parts, more, metered);
+  const test::Run done = apply_parts(parts, more, metered);
   EXPECT_EQ(done.exit_code, 0) << done.err;
   return test::float_attribute(test::place("out.exr"), "scotopic:adaptation");
 }
@@ -56,12 +47,13 @@ double adaptation_of(const std::vector<FlatPart>& parts, const Words& more) {
 TEST(Layers, those_listed_become_what_each_becomes_alone_and_the_others_keep_their_bits) {
   const std::vector<FlatPart> file = {{"", passes()}};
   for (const char* layer : {"diffuse", "specular"})
-    ASSERT_EQ(run(file, {"--layer", layer}, night, std::string(layer) + ".exr").exit_code, 0);
+    ASSERT_EQ(
+        apply_parts(file, {"--layer", layer}, test::night_options, std::string(layer) + ".exr").exit_code, 0);
   for (const char* list : {"diffuse,specular", "specular,diffuse", "diffuse,specular,diffuse"}) {
-    const test::Run done = run(file, {"--layers", list});
+    const test::Run done = apply_parts(file, {"--layers", list});
     ASSERT_EQ(done.exit_code, 0) << done.err;
-    EXPECT_TRUE(says(done, "light is diffuse, specular alike")) << done.err;
-    EXPECT_TRUE(says(done, "left as they are (--layer takes another, --layers several): RGB, normals"))
+    EXPECT_TRUE(says(done.err, "light is diffuse, specular alike")) << done.err;
+    EXPECT_TRUE(says(done.err, "left as they are (--layer takes another, --layers several): RGB, normals"))
         << done.err;
     for (const char* layer : {"diffuse", "specular"})
       EXPECT_EQ(colour(layer), colour(layer, 0, std::string(layer) + ".exr")) << list;
@@ -79,8 +71,8 @@ TEST(Layers, of_parts_likewise) {
   };
   const std::vector<FlatPart> file = {part("key", {0.4, 0.2, 0.1}), part("fill", {0.1, 0.1, 0.3}),
                                       part("crypto_object00", {7, 8, 9})};
-  ASSERT_EQ(run(file, {"--layer", "fill"}, night, "fill.exr").exit_code, 0);
-  const test::Run done = run(file, {"--layers", "key,fill"});
+  ASSERT_EQ(apply_parts(file, {"--layer", "fill"}, test::night_options, "fill.exr").exit_code, 0);
+  const test::Run done = apply_parts(file, {"--layers", "key,fill"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
   EXPECT_EQ(colour("", 1), colour("", 1, "fill.exr"));
   EXPECT_NE(colour("", 0)[0], 0.4f);
@@ -99,7 +91,7 @@ TEST(Layers, the_eye_adapts_to_the_beauty_not_to_its_shares) {
 
 TEST(Layers, grey_ones_become_colour_and_alpha_stays) {
   std::vector<FlatChannel> channels = {{"key.Y", 0.4f}, {"key.A", 0.5f}, {"fill.Y", 0.1f}};
-  ASSERT_EQ(run({{"", channels}}, {"--layers", "key,fill"}).exit_code, 0);
+  ASSERT_EQ(apply_parts({{"", channels}}, {"--layers", "key,fill"}).exit_code, 0);
   EXPECT_GT(colour("key")[2], 0);
   EXPECT_GT(colour("fill")[2], 0);
   EXPECT_EQ(test::pixel_of(test::place("out.exr"), {"key.A"})[0], 0.5f);
@@ -114,14 +106,14 @@ TEST(Layers, what_cannot_be_is_a_usage_error) {
       {{"--layers", ""}, "--layers"},
       {{"--layers", "diffuse", "--layer", "specular"}, "--layer"}};
   for (const auto& [arguments, text] : bad) {
-    const test::Run done = run(file, arguments);
+    const test::Run done = apply_parts(file, arguments);
     EXPECT_EQ(done.exit_code, 2) << arguments[1] << done.err;
-    EXPECT_TRUE(says(done, text)) << done.err;
+    EXPECT_TRUE(says(done.err, text)) << done.err;
   }
-  EXPECT_EQ(run(file, {"--layers", "diffuse,specular"}, night, "out.png").exit_code, 2);
+  EXPECT_EQ(apply_parts(file, {"--layers", "diffuse,specular"}, test::night_options, "out.png").exit_code, 2);
   std::vector<FlatChannel> mixed = passes();
   for (const char* c : {"eye.L", "eye.M", "eye.S", "eye.R"}) mixed.push_back({c, 0.1f});
-  EXPECT_EQ(run({{"", mixed}}, {"--layers", "diffuse,eye"}).exit_code, 2);
+  EXPECT_EQ(apply_parts({{"", mixed}}, {"--layers", "diffuse,eye"}).exit_code, 2);
 }
 
 TEST(Layers, explain_and_lmsr_take_them_too) {
@@ -189,9 +181,9 @@ FlatPart stereo(const std::string& layer, const test::Rgb& left, const test::Rgb
 
 TEST(Layers, both_views_of_one_part_are_light) {
   for (const std::string layer : {"", "diffuse"}) {
-    const test::Run done = run({stereo(layer, {0.4, 0.2, 0.1}, {0.4, 0.2, 0.1})}, {});
+    const test::Run done = apply_parts({stereo(layer, {0.4, 0.2, 0.1}, {0.4, 0.2, 0.1})}, {});
     ASSERT_EQ(done.exit_code, 0) << done.err;
-    EXPECT_TRUE(says(done, "alike; the eye adapts to all of them together")) << done.err;
+    EXPECT_TRUE(says(done.err, "alike; the eye adapts to all of them together")) << done.err;
     EXPECT_NE(colour(layer)[0], 0.4f);
     EXPECT_EQ(colour(layer), colour(layer.empty() ? "right" : layer + ".right"));
   }
@@ -200,10 +192,10 @@ TEST(Layers, both_views_of_one_part_are_light) {
 
 TEST(Layers, one_view_can_be_chosen) {
   const std::vector<FlatPart> file = {stereo("", {0.4, 0.2, 0.1}, {0.3, 0.2, 0.1})};
-  ASSERT_EQ(run(file, {"--layer", "right"}).exit_code, 0);
+  ASSERT_EQ(apply_parts(file, {"--layer", "right"}).exit_code, 0);
   EXPECT_EQ(colour("")[0], 0.4f);
   EXPECT_NE(colour("right")[0], 0.3f);
-  ASSERT_EQ(run(file, {"--layer", "left"}).exit_code, 0);
+  ASSERT_EQ(apply_parts(file, {"--layer", "left"}).exit_code, 0);
   EXPECT_NE(colour("")[0], 0.4f);
   EXPECT_EQ(colour("right")[0], 0.3f);
 }
@@ -213,12 +205,12 @@ TEST(Layers, views_need_no_multi_view_where_their_names_leave_no_doubt) {
   for (const char* prefix : {"", "right."}) add(pair.channels, prefix, {0.4, 0.2, 0.1});
   for (const char* prefix : {"", "left.", "right."}) add(lights.channels, prefix, {0.4, 0.2, 0.1});
   for (const char* prefix : {"left.", "right."}) add(no_top.channels, prefix, {0.4, 0.2, 0.1});
-  ASSERT_EQ(run({pair}, {}).exit_code, 0);
+  ASSERT_EQ(apply_parts({pair}, {}).exit_code, 0);
   EXPECT_NE(colour("right")[0], 0.4f);
-  ASSERT_EQ(run({lights}, {}).exit_code, 0);  // lights on the left and on the right: passes
+  ASSERT_EQ(apply_parts({lights}, {}).exit_code, 0);  // lights on the left and on the right: passes
   EXPECT_EQ(colour("right")[0], 0.4f);
   EXPECT_EQ(colour("left")[0], 0.4f);
-  ASSERT_EQ(run({no_top}, {}).exit_code, 0);
+  ASSERT_EQ(apply_parts({no_top}, {}).exit_code, 0);
   EXPECT_NE(colour("left")[0], 0.4f);
   EXPECT_NE(colour("right")[0], 0.4f);
 }
@@ -229,9 +221,9 @@ TEST(Layers, passes_of_both_views_as_parts_leave_the_beauty_of_both) {
     add(out.channels, "", {0.4, 0.2, 0.1});
     return out;
   };
-  const test::Run done = run({part("beauty_left", "left"), part("beauty_right", "right"),
-                              part("diffuse_left", "left"), part("diffuse_right", "right")},
-                             {});
+  const test::Run done = apply_parts({part("beauty_left", "left"), part("beauty_right", "right"),
+                                      part("diffuse_left", "left"), part("diffuse_right", "right")},
+                                     {});
   ASSERT_EQ(done.exit_code, 0) << done.err;
   for (int p = 0; p < 4; ++p) EXPECT_EQ(colour("", p)[0] == 0.4f, p > 1) << p;
 }

@@ -157,6 +157,13 @@ Run apply(const std::string& in, const std::string& out, std::vector<std::string
   return {outcome.exit_code, outcome.err};
 }
 
+Run apply_parts(const std::vector<FlatPart>& parts, std::vector<std::string> more,
+                const std::vector<std::string>& also, const std::string& out) {
+  write_flat_exr(place("in.exr"), parts);
+  more.insert(more.end(), also.begin(), also.end());
+  return apply(place("in.exr"), place(out), std::move(more));
+}
+
 std::vector<float> pixel_of(const std::string& file, const std::vector<std::string>& channels, int part,
                             int x, int y) {
   Imf::MultiPartInputFile in(file.c_str());

@@ -63,6 +63,15 @@ struct Run {
 /// scotopic apply IN -o OUT --adaptation 10 (daylight: light comes out as it went in) and more.
 Run apply(const std::string& in, const std::string& out, std::vector<std::string> more = {});
 
+inline const std::vector<std::string> night_options = {"--adaptation", "0.02", "--effects", "all"};
+/// apply of a file of these parts to OUT.
+Run apply_parts(const std::vector<FlatPart>& parts, std::vector<std::string> more = {},
+                const std::vector<std::string>& also = night_options, const std::string& out = "out.exr");
+
+inline bool says(const std::string& text, const std::string& what) {
+  return text.find(what) != std::string::npos;
+}
+
 /// Channels of a pixel of a part, as float; 0 for those that are not there.
 std::vector<float> pixel_of(const std::string& file, const std::vector<std::string>& channels, int part = 0,
                             int x = 0, int y = 0);

@@ -137,7 +137,7 @@ void rewrite(const std::string& in, const std::string& out, const std::string& s
 }
 
 /// Light of a file in linear BT.709.
-std::vector<float> light(const std::string& file) {
+std::vector<float> light_written(const std::string& file) {
   rewrite(file, test::place("light.exr"), "Linear Rec.709 (sRGB)", PixelType::float32);
   return test::pixel_of(test::place("light.exr"), {"R", "G", "B"});
 }
@@ -148,14 +148,14 @@ TEST(Metadata, colours_of_what_is_written_are_those_its_tags_state) {
   std::string worst_at;
   int pairs = 0;
   for (const Tagged& in : tagged_files()) {
-    const std::vector<float> wanted = light(in.file);
+    const std::vector<float> wanted = light_written(in.file);
     for (const std::string space : {"", "Linear Rec.709 (sRGB)", "ACEScg", "ACES2065-1", "sRGB - Texture"})
       for (const std::string name : {"out.exr", "out.tif", "out.png"}) {
         if (space == "sRGB - Texture" && name == "out.exr") continue;  // said: below
         rewrite(in.file, test::place(name), space,
                 name == "out.png" ? PixelType::uint16 : PixelType::float32);
         const std::string what = in.what + " to " + name + " in " + (space.empty() ? "its own space" : space);
-        const std::vector<float> got = light(test::place(name));
+        const std::vector<float> got = light_written(test::place(name));
         ++pairs;
         for (std::size_t c = 0; c < 3; ++c) {
           const double off = std::abs(static_cast<double>(got[c]) - static_cast<double>(wanted[c]));

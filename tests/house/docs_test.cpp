@@ -2,24 +2,19 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
+
+#include "support/file_bytes.h"
 
 namespace {
 
 namespace fs = std::filesystem;
+using scotopic::test::bytes_of;
 
 const fs::path root = SCOTOPIC_SOURCE_DIR;
-
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
 
 std::vector<fs::path> pages() {
   std::vector<fs::path> out = {root / "README.md", root / "CHANGELOG.md"};
@@ -31,7 +26,7 @@ std::vector<fs::path> pages() {
 // What [text](target) and ![text](target) lead to, but for the web.
 std::vector<std::string> links(const fs::path& page) {
   static const std::regex link(R"(\]\(([^)\s#]+)(#[^)\s]*)?\))");
-  const std::string text = text_of(page);
+  const std::string text = bytes_of(page);
   std::vector<std::string> out;
   for (std::sregex_iterator i(text.begin(), text.end(), link), end; i != end; ++i)
     if (const std::string target = (*i)[1]; target.find("://") == std::string::npos) out.push_back(target);
@@ -72,7 +67,7 @@ TEST(Docs, every_picture_is_shown_on_a_page) {
 TEST(Docs, the_changelog_begins_with_the_version_of_the_project) {
   static const std::regex project(R"(project\(Scotopic VERSION ([0-9.]+))");
   static const std::regex newest(R"(\n## ([0-9.]+))");
-  const std::string cmake = text_of(root / "CMakeLists.txt"), changelog = text_of(root / "CHANGELOG.md");
+  const std::string cmake = bytes_of(root / "CMakeLists.txt"), changelog = bytes_of(root / "CHANGELOG.md");
   std::smatch version, change;
   ASSERT_TRUE(std::regex_search(cmake, version, project));
   ASSERT_TRUE(std::regex_search(changelog, change, newest));

@@ -7,13 +7,15 @@
 #include <map>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
+
+#include "support/file_bytes.h"
 
 namespace {
 
 namespace fs = std::filesystem;
+using scotopic::test::bytes_of;
 
 const fs::path source = fs::path(SCOTOPIC_SOURCE_DIR) / "src";
 
@@ -94,12 +96,6 @@ TEST(House, the_core_knows_neither_files_nor_ocio) {
   });
 }
 
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
 TEST(House, a_file_that_calls_an_algorithm_includes_it) {
   // Other headers bring <algorithm> in some standard libraries, not in the next: GCC 14's leave it out.
   const std::regex call(
@@ -109,7 +105,7 @@ TEST(House, a_file_that_calls_an_algorithm_includes_it) {
   int callers = 0;
   for (const fs::path& root : {source, fs::path(SCOTOPIC_SOURCE_DIR) / "tests"})
     for_each_source(root, [&](const fs::path& file) {
-      const std::string text = text_of(file);
+      const std::string text = bytes_of(file);
       if (!std::regex_search(text, call)) return;
       ++callers;
       EXPECT_NE(text.find("#include <algorithm>"), std::string::npos) << file;
@@ -118,11 +114,11 @@ TEST(House, a_file_that_calls_an_algorithm_includes_it) {
 }
 
 TEST(House, the_program_asks_for_the_variables_that_are_listed) {
-  const std::string promises = text_of(fs::path(SCOTOPIC_SOURCE_DIR) / "SECURITY.md");
+  const std::string promises = bytes_of(fs::path(SCOTOPIC_SOURCE_DIR) / "SECURITY.md");
   const std::regex call(R"(\bgetenv\(([^)]*)\))");
   int asked = 0;
   for_each_source(source, [&](const fs::path& file) {
-    const std::string text = text_of(file);
+    const std::string text = bytes_of(file);
     for (std::sregex_iterator found(text.begin(), text.end(), call), end; found != end; ++found, ++asked) {
       const std::string name = (*found)[1];
       ASSERT_EQ(name.front(), '"') << file << " asks for a variable whose name is not written there";

@@ -85,7 +85,7 @@ TestHost::TestHost(const std::string& module, const std::string& lacking) {
   module_ = dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!module_) throw std::runtime_error(dlerror());
   const auto count = reinterpret_cast<int (*)()>(dlsym(module_, "OfxGetNumberOfPlugins"));
-  const auto get = reinterpret_cast<Plugin* (*)(int)>(dlsym(module_, "OfxGetPlugin"));
+  const auto get = reinterpret_cast<ofx::Plugin* (*)(int)>(dlsym(module_, "OfxGetPlugin"));
   if (!count || !get || count() != 1 || get(1)) throw std::runtime_error("not one plug-in");
   plugin_ = get(0);
   leave_out_suite(lacking);

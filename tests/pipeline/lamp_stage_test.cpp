@@ -25,7 +25,7 @@ using test::TestPart;
 using test::write_exr;
 
 /// A channel's values.
-std::vector<double> values(const std::string& file, const char* channel) {
+std::vector<double> values_in_double(const std::string& file, const char* channel) {
   std::vector<double> out;
   for (const std::uint32_t word : read_bits(file, 0, 0, 0, channel))
     out.push_back(static_cast<double>(std::bit_cast<float>(word)));
@@ -117,8 +117,9 @@ TEST(LampStage, adapts_cones_signals_of_a_file_and_leaves_its_rods) {
   const AppearanceReference reference(p);
   const Matrix3<double> m = adapt_to_lamp({1.2, 1, 0.3}, adaptation_degree(0.01));
   const Vec3<double>& y = p.xyz_from_rgb[1];
-  const auto l = values(in, "L"), mid = values(in, "M"), sh = values(in, "S"), rod = values(in, "R");
-  const auto r = values(out, "R"), g = values(out, "G"), b = values(out, "B");
+  const auto l = values_in_double(in, "L"), mid = values_in_double(in, "M"), sh = values_in_double(in, "S"),
+             rod = values_in_double(in, "R");
+  const auto r = values_in_double(out, "R"), g = values_in_double(out, "G"), b = values_in_double(out, "B");
   double worst = 0, of_rods = 0;
   for (std::size_t i = 0; i < l.size(); ++i) {
     const Vec3<double> xyz = xyz_from_lms() * Vec3<double>{l[i], mid[i], sh[i]};

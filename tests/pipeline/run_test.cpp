@@ -28,7 +28,7 @@ const std::vector<Channel> rgb_float = {{"B", PixelType::float32},
                                         {"Z", PixelType::float32}};
 
 /// A picture whose data window begins elsewhere than its display window.
-TestPart picture(int width = 700, int height = 83) {
+TestPart offset_picture(int width = 700, int height = 83) {
   TestPart part;
   part.channels = rgb_float;
   part.finite = true;
@@ -37,7 +37,7 @@ TestPart picture(int width = 700, int height = 83) {
   return part;
 }
 
-ImageSettings settings(double adaptation) {
+ImageSettings plain_settings(double adaptation) {
   ImageSettings out(ColourConfig::own());
   if (adaptation > 0) out.choice.adaptation = adaptation;
   out.choice.white_luminance = 1;
@@ -45,8 +45,8 @@ ImageSettings settings(double adaptation) {
   return out;
 }
 
-ImageReport run(const std::string& in, const std::string& out, const ImageSettings& s, ImageJob job = {},
-                const Notes& notes = {}) {
+ImageReport run_file(const std::string& in, const std::string& out, const ImageSettings& s, ImageJob job = {},
+                     const Notes& notes = {}) {
   job.input = in;
   job.output = out;
   ExactEvaluators evaluators;
@@ -56,7 +56,7 @@ ImageReport run(const std::string& in, const std::string& out, const ImageSettin
 float value(std::uint32_t bits) { return std::bit_cast<float>(bits); }
 
 /// Values of a channel, row by row.
-std::vector<float> values(const std::string& file, const std::string& channel) {
+std::vector<float> float_values(const std::string& file, const std::string& channel) {
   std::vector<float> out;
   for (const std::uint32_t bits : read_bits(file, 0, 0, 0, channel)) out.push_back(value(bits));
   return out;
@@ -116,16 +116,17 @@ void set_acuity(ImageSettings& s, bool on) {
 
 TEST(Run, a_row_stage_is_told_where_and_when_its_pixels_are) {
   const std::string in = temporary("where.exr"), out = temporary("where-out.exr");
-  const TestPart part = picture();
+  const TestPart part = offset_picture();
   write_exr(in, {part});
   for (const bool acuity : {false, true}) {
-    ImageSettings s = settings(0.01);
+    ImageSettings s = plain_settings(0.01);
     s.point_stages = {witness(false)};
     set_acuity(s, acuity);
     ImageJob job;
     job.moment = {7, 0.25, 3};
-    run(in, out, s, job);
-    const std::vector<float> r = values(out, "R"), g = values(out, "G"), b = values(out, "B");
+    run_file(in, out, s, job);
+    const std::vector<float> r = float_values(out, "R"), g = float_values(out, "G"),
+                             b = float_values(out, "B");
     ASSERT_EQ(r.size(), 700u * 83u);
     for (std::size_t i = 0; i < r.size(); ++i) {
       ASSERT_EQ(r[i], static_cast<float>(static_cast<int>(i % 700) - 5)) << i;
@@ -137,13 +138,13 @@ TEST(Run, a_row_stage_is_told_where_and_when_its_pixels_are) {
 
 TEST(Run, a_row_stage_gets_the_light_that_the_pixel_stages_saw_if_it_asks) {
   const std::string in = temporary("planes.exr"), out = temporary("planes-out.exr");
-  write_exr(in, {picture()});
+  write_exr(in, {offset_picture()});
   for (const bool acuity : {false, true}) {
-    ImageSettings s = settings(0.02);
+    ImageSettings s = plain_settings(0.02);
     s.choice.white_luminance = 3;
     s.point_stages = {witness(true)};
     set_acuity(s, acuity);
-    const ImageReport report = run(in, out, s);
+    const ImageReport report = run_file(in, out, s);
     for (const char* channel : {"R", "G"})
       EXPECT_EQ(read_bits(in, 0, 0, 0, channel), read_bits(out, 0, 0, 0, channel)) << channel << acuity;
     EXPECT_EQ(report.evaluator->name(), "float");
@@ -190,25 +191,25 @@ class Mirror : public TestStage {
 TEST(Run, a_frame_stage_sees_the_whole_picture_before_the_operator) {
   const std::string in = temporary("frame.exr"), mirrored = temporary("frame-mirrored.exr");
   const std::string out = temporary("frame-out.exr"), plain = temporary("frame-plain.exr");
-  write_exr(in, {picture()});
-  ImageSettings daylight = settings(10);
+  write_exr(in, {offset_picture()});
+  ImageSettings daylight = plain_settings(10);
   daylight.frame_stages = {std::make_shared<const Mirror>()};
-  const ImageReport report = run(in, mirrored, daylight);
+  const ImageReport report = run_file(in, mirrored, daylight);
   EXPECT_TRUE(report.scene.plan.effect("mirror").runs());
   EXPECT_EQ(report.stamps.back().name, "test:mirror");
   for (const char* channel : {"R", "G", "B"}) {
-    const std::vector<float> before = values(in, channel), after = values(mirrored, channel);
+    const std::vector<float> before = float_values(in, channel), after = float_values(mirrored, channel);
     for (std::size_t i = 0; i < before.size(); ++i)
       ASSERT_EQ(after[i], before[i - i % 700 + 699 - i % 700]) << channel << i;
   }
   EXPECT_EQ(read_bits(in, 0, 0, 0, "Z"), read_bits(mirrored, 0, 0, 0, "Z"));
   // What follows works on what it left: as on a file that holds it.
   for (const bool acuity : {false, true}) {
-    ImageSettings night = settings(0.02), then = settings(0.02);
+    ImageSettings night = plain_settings(0.02), then = plain_settings(0.02);
     for (ImageSettings* s : {&night, &then}) set_acuity(*s, acuity);
     night.frame_stages = daylight.frame_stages;
-    run(in, out, night);
-    run(mirrored, plain, then);
+    run_file(in, out, night);
+    run_file(mirrored, plain, then);
     for (const char* channel : {"R", "G", "B"})
       EXPECT_EQ(read_bits(out, 0, 0, 0, channel), read_bits(plain, 0, 0, 0, channel)) << channel << acuity;
   }
@@ -230,23 +231,23 @@ class Dim : public TestStage {
 
 TEST(Run, a_frame_stage_knows_the_adaptation_to_its_input_and_the_others_that_to_its_result) {
   const std::string in = temporary("dim.exr"), out = temporary("dim-out.exr");
-  write_exr(in, {picture()});
+  write_exr(in, {offset_picture()});
   const auto dim = std::make_shared<const Dim>();
-  ImageSettings s = settings(0);
-  const double before = run(in, out, s).scene.numbers.adaptation;
+  ImageSettings s = plain_settings(0);
+  const double before = run_file(in, out, s).scene.numbers.adaptation;
   s.frame_stages = {dim};
-  const double after = run(in, out, s).scene.numbers.adaptation;
+  const double after = run_file(in, out, s).scene.numbers.adaptation;
   EXPECT_EQ(dim->adaptation, before);
   EXPECT_NEAR(after, before / 8, 1e-6 * before);
 }
 
 TEST(Run, memory_of_whole_pictures_is_planned_before_it_is_taken_and_told) {
   const std::string in = temporary("memory.exr"), out = temporary("memory-out.exr");
-  write_exr(in, {picture()});
-  ImageSettings s = settings(0.02);
+  write_exr(in, {offset_picture()});
+  ImageSettings s = plain_settings(0.02);
   s.frame_stages = {std::make_shared<const Mirror>(std::int64_t{1} << 40)};
   try {
-    run(in, out, s);
+    run_file(in, out, s);
     ADD_FAILURE() << "was taken";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::limit);
@@ -254,7 +255,7 @@ TEST(Run, memory_of_whole_pictures_is_planned_before_it_is_taken_and_told) {
   s.frame_stages = {std::make_shared<const Mirror>()};
   std::vector<std::string> lines;
   const Notes notes = {nullptr, [&](const std::string& line) { lines.push_back(line); }};
-  run(in, out, s, {}, notes);
+  run_file(in, out, s, {}, notes);
   EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
     return line.find("whole picture is kept") != std::string::npos;
   }));
@@ -263,27 +264,27 @@ TEST(Run, memory_of_whole_pictures_is_planned_before_it_is_taken_and_told) {
 TEST(Run, an_adaptation_track_has_a_value_for_each_frame) {
   const std::string in = temporary("track.exr"), out = temporary("track-out.exr"),
                     plain = temporary("track-plain.exr");
-  write_exr(in, {picture()});
+  write_exr(in, {offset_picture()});
   ImageJob job;
   job.adaptation = TrackedAdaptation{0.03, "the track's", {}};
-  const ImageReport report = run(in, out, settings(4), job);
+  const ImageReport report = run_file(in, out, plain_settings(4), job);
   EXPECT_EQ(report.scene.numbers.adaptation, 0.03);
   EXPECT_EQ(report.scene.numbers.adaptation_source, "the track's");
-  run(in, plain, settings(0.03));
+  run_file(in, plain, plain_settings(0.03));
   EXPECT_EQ(read_bits(out, 0, 0, 0, "R"), read_bits(plain, 0, 0, 0, "R"));
 }
 
 TEST(Run, bytes_depend_neither_on_threads_nor_on_stages_that_do_nothing) {
   const std::string in = temporary("threads.exr"), out = temporary("threads-out.exr");
-  write_exr(in, {picture(1300, 211)});
+  write_exr(in, {offset_picture(1300, 211)});
   std::vector<std::uint32_t> first;
   for (const int threads : {1, 2, 5}) {
     set_threads(threads);
-    ImageSettings s = settings(0);
+    ImageSettings s = plain_settings(0);
     s.frame_stages = {std::make_shared<const Mirror>(), std::make_shared<const Mirror>()};
-    run(in, out, s);
+    run_file(in, out, s);
     const std::vector<std::uint32_t> twice = read_bits(out, 0, 0, 0, "R");
-    run(in, out, settings(0));
+    run_file(in, out, plain_settings(0));
     if (first.empty()) first = twice;
     EXPECT_TRUE(twice == first) << threads;
     EXPECT_TRUE(read_bits(out, 0, 0, 0, "R") == first) << threads;
@@ -293,11 +294,11 @@ TEST(Run, bytes_depend_neither_on_threads_nor_on_stages_that_do_nothing) {
 
 TEST(Run, a_scene_is_read_without_a_place_to_write) {
   const std::string in = temporary("read.exr"), out = temporary("read-out.exr");
-  write_exr(in, {picture()});
+  write_exr(in, {offset_picture()});
   ImageJob job;
   job.input = in;
-  const SceneReport seen = read_scene(job, settings(0), Statistics::of_all_pixels, {});
-  const ImageReport made = run(in, out, settings(0));
+  const SceneReport seen = read_scene(job, plain_settings(0), Statistics::of_all_pixels, {});
+  const ImageReport made = run_file(in, out, plain_settings(0));
   EXPECT_EQ(seen.numbers.adaptation, made.scene.numbers.adaptation);
   EXPECT_EQ(seen.statistics->photopic.count(), 700u * 83u);
 }

@@ -18,13 +18,13 @@
 namespace scotopic {
 namespace {
 
-constexpr int width = 1301, height = 83;  // more than two pieces, and a rest
-constexpr std::size_t pixels = std::size_t{width} * height;
+constexpr int row_width = 1301, row_count = 83;  // more than two pieces, and a rest
+constexpr std::size_t pixel_count = std::size_t{row_width} * row_count;
 
 struct Halves {
   std::vector<std::uint16_t> plane[3];
   Halves() {
-    for (auto& p : plane) p.resize(pixels);
+    for (auto& p : plane) p.resize(pixel_count);
   }
   NativeRow row(std::size_t c) { return {reinterpret_cast<std::byte*>(plane[c].data()), 2, PixelType::half}; }
 };
@@ -34,9 +34,9 @@ struct Halves {
 Halves scene() {
   std::mt19937 random(3);
   std::vector<float> rgb[3];
-  for (auto& plane : rgb) plane.resize(pixels);
-  for (std::size_t i = 0; i < pixels; ++i) {
-    const std::size_t x = i % width, y = i / width;
+  for (auto& plane : rgb) plane.resize(pixel_count);
+  for (std::size_t i = 0; i < pixel_count; ++i) {
+    const std::size_t x = i % row_width, y = i / row_width;
     const bool lit = y % 4 == 1 ? true : y % 4 == 2 ? x % 512 < 200 : y % 4 == 3 ? x == 700 : false;
     const bool odd_one_out = y % 8 == 1 && x == 1000;
     const float level = lit && !odd_one_out ? 20.0f : 0.001f * static_cast<float>(random() % 1000);
@@ -49,22 +49,23 @@ Halves scene() {
     if (y == 17 && x % 197 == 5) rgb[x % 3][i] = x % 2 ? NAN : INFINITY;
   }
   Halves out;
-  for (std::size_t c = 0; c < 3; ++c) store_row(rgb[c].data(), pixels, out.row(c));
+  for (std::size_t c = 0; c < 3; ++c) store_row(rgb[c].data(), pixel_count, out.row(c));
   return out;
 }
 
 void write_scene(Halves& image, const std::string& file, unsigned tile) {
-  Imf::Header header(width, height);
+  Imf::Header header(row_width, row_count);
   Imf::FrameBuffer frame;
   for (std::size_t c = 0; c < 3; ++c) {
     const std::string name(1, "RGB"[c]);
     header.channels().insert(name, Imf::Channel(Imf::HALF));
-    frame.insert(name, Imf::Slice(Imf::HALF, reinterpret_cast<char*>(image.plane[c].data()), 2, 2 * width));
+    frame.insert(name,
+                 Imf::Slice(Imf::HALF, reinterpret_cast<char*>(image.plane[c].data()), 2, 2 * row_width));
   }
   if (tile == 0) {
     Imf::OutputFile out(file.c_str(), header);
     out.setFrameBuffer(frame);
-    out.writePixels(height);
+    out.writePixels(row_count);
     return;
   }
   header.setTileDescription(Imf::TileDescription(tile, tile));
@@ -83,12 +84,12 @@ Halves pixel_by_pixel(Halves in, double adaptation, std::size_t& untouched) {
   const AppearanceBatch batch(p);
   std::vector<float> rgb[3];
   for (std::size_t c = 0; c < 3; ++c) {
-    rgb[c].resize(pixels);
-    load_row(in.row(c), pixels, rgb[c].data());
+    rgb[c].resize(pixel_count);
+    load_row(in.row(c), pixel_count, rgb[c].data());
   }
   Halves out = in;
   untouched = 0;
-  for (std::size_t i = 0; i < pixels; ++i) {
+  for (std::size_t i = 0; i < pixel_count; ++i) {
     PixelRows one;
     one.r = &rgb[0][i], one.g = &rgb[1][i], one.b = &rgb[2][i], one.count = 1;
     std::uint8_t touched = 0;
@@ -109,8 +110,8 @@ TEST_P(Skips, are_the_bits_of_every_pixel_by_itself) {
   for (const double adaptation : {0.01, 4.5, 4.999, 5.0, 5.001}) {
     std::size_t untouched = 0;
     const Halves expected = pixel_by_pixel(in, adaptation, untouched);
-    EXPECT_GT(untouched, pixels / 4);
-    EXPECT_EQ(untouched == pixels, adaptation >= 5);
+    EXPECT_GT(untouched, pixel_count / 4);
+    EXPECT_EQ(untouched == pixel_count, adaptation >= 5);
     for (const int threads : {1, 2, 5}) {
       set_threads(threads);
       test::run_operator(file, seen, adaptation);

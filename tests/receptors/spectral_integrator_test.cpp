@@ -2,7 +2,6 @@
 
 #include <Imath/half.h>
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,15 +11,10 @@
 
 #include "receptors/support.h"
 #include "receptors/tables.h"
+#include "support/simd_targets.h"
 
 namespace scotopic {
 namespace {
-
-std::vector<double> evenly(double first, double step, std::size_t count) {
-  std::vector<double> centres(count);
-  for (std::size_t i = 0; i < count; ++i) centres[i] = first + step * static_cast<double>(i);
-  return centres;
-}
 
 struct Signals {
   explicit Signals(std::size_t count) {
@@ -65,7 +59,7 @@ TEST(SpectralIntegrator, signals_equal_the_sum_in_long_double) {
   const std::size_t pixels = 1000;
   test::WorstError worst_dual, worst_single;
   for (const double step : {1.0, 5.0, 10.0, 40.0}) {
-    const BandGrid grid(evenly(380.0, step, static_cast<std::size_t>(400.0 / step) + 1));
+    const BandGrid grid(test::evenly(380.0, step, static_cast<std::size_t>(400.0 / step) + 1));
     const SpectralWeights weights = emissive_weights(grid, BandSampling::bin, BandUnit::per_nm);
     const std::vector<float> bands = night_bands(grid.size(), pixels);
     Signals dual(pixels), single(pixels);
@@ -88,7 +82,7 @@ TEST(SpectralIntegrator, signals_equal_the_sum_in_long_double) {
 
 TEST(SpectralIntegrator, one_nanometre_points_equal_the_standard_sum_of_the_spectrum) {
   const std::size_t pixels = 1;
-  const BandGrid grid(evenly(360.0, 1.0, 471));
+  const BandGrid grid(test::evenly(360.0, 1.0, 471));
   const SpectralIntegrator integrator(emissive_weights(grid, BandSampling::point, BandUnit::per_nm),
                                       Accumulation::dual);
   test::WorstError worst;
@@ -112,7 +106,7 @@ TEST(SpectralIntegrator, one_nanometre_points_equal_the_standard_sum_of_the_spec
 
 TEST(SpectralIntegrator, every_instruction_set_and_grouping_gives_the_same_bits) {
   const std::size_t pixels = 5003;
-  const BandGrid grid(evenly(380.0, 5.0, 81));
+  const BandGrid grid(test::evenly(380.0, 5.0, 81));
   const SpectralWeights weights = emissive_weights(grid, BandSampling::bin, BandUnit::per_nm);
   const std::vector<float> bands = night_bands(grid.size(), pixels);
   std::vector<std::uint16_t> half_bands = halves(bands);
@@ -125,9 +119,7 @@ TEST(SpectralIntegrator, every_instruction_set_and_grouping_gives_the_same_bits)
     Signals first(pixels), first_half(pixels);
     integrator.integrate(bands.data(), pixels, pixels, first.rows);
     integrator.integrate_half(half_bands.data(), pixels, pixels, first_half.rows);
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-      hwy::SetSupportedTargetsForTest(target);
-      hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    test::on_every_target([&](const char* target) {
       Signals out(pixels), half_out(pixels);
       for (std::size_t begin = 0, length = 1; begin < pixels; begin += length, length = length * 3 + 1) {
         length = std::min(length, pixels - begin);
@@ -140,14 +132,11 @@ TEST(SpectralIntegrator, every_instruction_set_and_grouping_gives_the_same_bits)
         integrator.integrate_half(half_bands.data() + begin, pixels, length, half_rows);
       }
       for (std::size_t s = 0; s < signal_count; ++s) {
-        EXPECT_TRUE(same(first.planes[s], out.planes[s])) << hwy::TargetName(target) << " signal " << s;
-        EXPECT_TRUE(same(first_half.planes[s], half_out.planes[s]))
-            << hwy::TargetName(target) << " half, signal " << s;
+        EXPECT_TRUE(same(first.planes[s], out.planes[s])) << target << " signal " << s;
+        EXPECT_TRUE(same(first_half.planes[s], half_out.planes[s])) << target << " half, signal " << s;
       }
       ++targets;
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    });
   }
   std::printf("%d runs of an instruction set\n", targets);
   EXPECT_GE(targets, 2);
@@ -155,7 +144,7 @@ TEST(SpectralIntegrator, every_instruction_set_and_grouping_gives_the_same_bits)
 
 TEST(SpectralIntegrator, lmsr_alone_is_the_same_as_with_xyz) {
   const std::size_t pixels = 70;
-  const BandGrid grid(evenly(400.0, 10.0, 31));
+  const BandGrid grid(test::evenly(400.0, 10.0, 31));
   const SpectralIntegrator integrator(emissive_weights(grid, BandSampling::bin, BandUnit::per_nm),
                                       Accumulation::dual);
   const std::vector<float> bands = night_bands(grid.size(), pixels);
@@ -170,7 +159,7 @@ TEST(SpectralIntegrator, lmsr_alone_is_the_same_as_with_xyz) {
 
 TEST(SpectralIntegrator, a_broken_band_stays_in_its_pixel) {
   const std::size_t pixels = 33;
-  const BandGrid grid(evenly(400.0, 10.0, 31));
+  const BandGrid grid(test::evenly(400.0, 10.0, 31));
   const SpectralIntegrator integrator(emissive_weights(grid, BandSampling::bin, BandUnit::per_nm),
                                       Accumulation::dual);
   std::vector<float> bands = night_bands(grid.size(), pixels);

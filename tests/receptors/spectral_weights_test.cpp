@@ -14,12 +14,6 @@ namespace {
 
 const char* const names[] = {"l", "m", "s", "rod", "x", "y", "z"};
 
-std::vector<double> evenly(double first, double step, std::size_t count) {
-  std::vector<double> centres(count);
-  for (std::size_t i = 0; i < count; ++i) centres[i] = first + step * static_cast<double>(i);
-  return centres;
-}
-
 double sum(const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0); }
 
 // Integral of a curve by the midpoint rule on slices so thin that the rule's error is far below the
@@ -45,7 +39,7 @@ TEST(BandGrid, bins_meet_halfway_and_are_symmetric_at_the_ends) {
 TEST(SpectralWeights, bins_that_cover_a_sensitivity_take_in_all_of_it) {
   test::WorstError worst;
   for (const double step : {1.0, 5.0, 10.0, 13.7}) {
-    const BandGrid grid(evenly(340.0, step, static_cast<std::size_t>(520.0 / step) + 1));
+    const BandGrid grid(test::evenly(340.0, step, static_cast<std::size_t>(520.0 / step) + 1));
     const SpectralWeights weights = emissive_weights(grid, BandSampling::bin, BandUnit::per_nm);
     for (const Signal signal : all_signals) {
       const TabulatedCurve& curve = sensitivity(signal);
@@ -76,7 +70,7 @@ TEST(SpectralWeights, uneven_bins_hold_the_integral_between_their_edges) {
 }
 
 TEST(SpectralWeights, points_one_nanometre_apart_are_the_standard_sum) {
-  const BandGrid grid(evenly(380.0, 1.0, 401));
+  const BandGrid grid(test::evenly(380.0, 1.0, 401));
   const SpectralWeights weights = emissive_weights(grid, BandSampling::point, BandUnit::per_nm);
   test::WorstError worst;
   for (const Signal signal : all_signals)
@@ -98,7 +92,7 @@ TEST(SpectralWeights, radiance_of_a_band_is_its_width_times_radiance_per_nanomet
 }
 
 TEST(SpectralWeights, perfect_white_has_the_signals_of_the_illuminant_at_one_candela) {
-  const BandGrid grid(evenly(380.0, 10.0, 41));
+  const BandGrid grid(test::evenly(380.0, 10.0, 41));
   test::WorstError worst;
   for (const TabulatedCurve* light :
        {&tables::illuminant_cie_d65_d65, &tables::illuminant_cie_a_a, &tables::lamps_houser_2013_hps}) {
@@ -118,7 +112,7 @@ TEST(SpectralWeights, perfect_white_has_the_signals_of_the_illuminant_at_one_can
 TEST(SpectralWeights, light_outside_the_bands_is_reported) {
   // 400-700 nm, bins from 395 to 705.
   const SpectralWeights weights =
-      emissive_weights(BandGrid(evenly(400.0, 10.0, 31)), BandSampling::bin, BandUnit::per_nm);
+      emissive_weights(BandGrid(test::evenly(400.0, 10.0, 31)), BandSampling::bin, BandUnit::per_nm);
   for (const Signal signal : all_signals) {
     const TabulatedCurve& curve = sensitivity(signal);
     const double whole = sliced_integral(curve, curve.first_nm, curve.last_nm());

@@ -6,8 +6,16 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 namespace scotopic::test {
+
+/// Centres of bands, nm.
+inline std::vector<double> evenly(double first, double step, std::size_t count) {
+  std::vector<double> centres(count);
+  for (std::size_t i = 0; i < count; ++i) centres[i] = first + step * static_cast<double>(i);
+  return centres;
+}
 
 /// Collects |measured - expected| as a multiple of each row's tolerance; prints the worst and where it is.
 class WorstError {

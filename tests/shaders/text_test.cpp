@@ -14,7 +14,7 @@
 namespace scotopic {
 namespace {
 
-ShaderSpec usual() {
+ShaderSpec usual_spec() {
   ShaderSpec spec;
   spec.parameters.xyz_from_rgb = gamut_xyz_matrix("rec709").value();
   spec.parameters.xyz_from_gamut = spec.parameters.xyz_from_rgb;
@@ -28,7 +28,7 @@ bool has(const std::string& text, const std::string& what) { return text.find(wh
 
 TEST(ShaderText, says_what_goes_in_what_it_is_of_and_who_made_it) {
   for (const ShaderLanguageName& language : shader_languages) {
-    const std::string text = shader_text(usual(), language.language);
+    const std::string text = shader_text(usual_spec(), language.language);
     for (const char* said : {"'Linear Rec.709 (sRGB)'", "scotopic 1.2.3", "filament2021",
                              "shift, luminance, chroma", "0.4123908 R", "no display stage", "2e-5"})
       EXPECT_TRUE(has(text, said)) << language.name << " does not say " << said;
@@ -45,14 +45,14 @@ TEST(ShaderText, has_sliders_for_what_is_in_it_and_for_nothing_else) {
       {"strength_shift", true, false, false, true}, {"strength_luminance", true, false, false, true},
       {"strength_chroma", true, true, false, true}, {"strength_display", false, false, false, true},
       {"viewing", false, false, false, true},       {"peak", false, false, false, true}};
-  ShaderSpec chroma = usual(), safko = usual(), displayed = usual();
+  ShaderSpec chroma = usual_spec(), safko = usual_spec(), displayed = usual_spec();
   chroma.parameters.strength = {1, 0, 0, 1};
   safko.parameters.model = Model::safko2019;
   displayed.display.emplace().xyz_from_display = displayed.parameters.xyz_from_rgb;
   const auto glsl = [](const ShaderSpec& spec) { return shader_text(spec, ShaderLanguage::glsl); };
   for (const Row& row : rows) {
     const std::string uniform = "uniform float " + std::string(row.slider) + " = ";
-    EXPECT_EQ(has(glsl(usual()), uniform), row.whole) << row.slider;
+    EXPECT_EQ(has(glsl(usual_spec()), uniform), row.whole) << row.slider;
     EXPECT_EQ(has(glsl(chroma), uniform), row.chroma_alone) << row.slider;
     // White follows adaptation where it is not given.
     EXPECT_EQ(has(glsl(safko), uniform), row.safko || std::string(row.slider) == "adaptation") << row.slider;
@@ -61,7 +61,7 @@ TEST(ShaderText, has_sliders_for_what_is_in_it_and_for_nothing_else) {
 }
 
 TEST(ShaderText, sliders_stand_where_the_parameters_are) {
-  ShaderSpec spec = usual();
+  ShaderSpec spec = usual_spec();
   spec.parameters.adaptation = 0.01;
   spec.parameters.strength.chroma = 0.25;
   const std::string follows = shader_text(spec, ShaderLanguage::glsl);
@@ -76,19 +76,19 @@ TEST(ShaderText, sliders_stand_where_the_parameters_are) {
 
 TEST(ShaderText, is_ascii_and_the_same_in_every_locale) {
   for (const ShaderLanguageName& language : shader_languages) {
-    const std::string text = shader_text(usual(), language.language);
+    const std::string text = shader_text(usual_spec(), language.language);
     EXPECT_TRUE(
         std::all_of(text.begin(), text.end(), [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }));
     for (const char* locale : {"de_DE.UTF-8", "C.UTF-8"}) {
       if (!std::setlocale(LC_ALL, locale)) continue;
-      EXPECT_EQ(shader_text(usual(), language.language), text) << locale;
+      EXPECT_EQ(shader_text(usual_spec(), language.language), text) << locale;
     }
     std::setlocale(LC_ALL, "C");
   }
 }
 
 TEST(ShaderText, a_name_from_a_config_stays_in_its_comment) {
-  ShaderSpec spec = usual();
+  ShaderSpec spec = usual_spec();
   spec.space = "R\xc3\xa4umlich\nerror \\";
   spec.display.emplace().xyz_from_display = spec.parameters.xyz_from_rgb;
   spec.display_name = "a\rb\n#error";
@@ -100,7 +100,7 @@ TEST(ShaderText, a_name_from_a_config_stays_in_its_comment) {
 }
 
 TEST(ShaderText, of_nothing_hands_the_pixel_on) {
-  ShaderSpec spec = usual();
+  ShaderSpec spec = usual_spec();
   spec.parameters.strength = {1, 0, 0, 0};
   EXPECT_TRUE(has(shader_text(spec, ShaderLanguage::dctl), "stages: none."));
 }

@@ -21,7 +21,7 @@ struct Row {
   Expected expected;
 };
 
-const std::vector<FlatChannel> rgb = {{"R", 0.6f}, {"G", 0.3f}, {"B", 0.1f}};
+const std::vector<FlatChannel> rgb_channels = {{"R", 0.6f}, {"G", 0.3f}, {"B", 0.1f}};
 const std::vector<FlatChannel> xyz = {{"X", 0.41f}, {"Y", 0.21f}, {"Z", 0.02f}};
 // By BT.709's matrix from CIE XYZ.
 const test::Rgb xyz_light = {0.99598, -0.0026056, 0.0011126};
@@ -63,19 +63,19 @@ TEST(Brothers, channels_and_headers_of_openexr) {
       {xyz,
        text("colorInteropID", "lin_ap1_scene"),
        {"X, Y, Z of ACEScg", xyz_light, 1e-4, "channels X, Y, Z and the file's colorInteropID"}},
-      {rgb,
+      {rgb_channels,
        primaries({0.64f, 0.33f}, {0.3f, 0.6f}, {0.15f, 0.06f}, {0.9f, 0.05f}),
        {"a white that is none", {}, 0, "", "span no colour space"}},
-      {rgb,
+      {rgb_channels,
        text("chromaticities", "BT.709"),
        {"of type string", {0.6, 0.3, 0.1}, 1e-4, "chromaticities is of type string"}},
-      {rgb,
+      {rgb_channels,
        text("whiteLuminance", "100"),
        {"a luminance as text", {0.6, 0.3, 0.1}, 1e-4, "whiteLuminance is of type string"}},
-      {rgb,
+      {rgb_channels,
        [](Header& h) { h.insert("whiteLuminance", Imf::DoubleAttribute(100)); },
        {"a luminance as double", {0.6, 0.3, 0.1}, 1e-4, "value 1 is 100 cd/m2"}},
-      {rgb,
+      {rgb_channels,
        [](Header& h) { h.insert("whiteLuminance", Imf::FloatAttribute(1e30f)); },
        {"no luminance", {0.6, 0.3, 0.1}, 1e-4, "is no luminance, and ignored"}},
   };
@@ -135,7 +135,8 @@ TEST(Brothers, renderers_names_of_data) {
 }
 
 TEST(Brothers, parts_of_houdini) {
-  test::write_flat_exr(test::place("in.exr"), {{"C", rgb}, {"Pz", rgb}, {"Op_Id", rgb}});
+  test::write_flat_exr(test::place("in.exr"),
+                       {{"C", rgb_channels}, {"Pz", rgb_channels}, {"Op_Id", rgb_channels}});
   test::expect_row(test::place("in.exr"), {"C is the picture", {0.6, 0.3, 0.1}, 1e-4, "Pz, Op_Id"});
 }
 

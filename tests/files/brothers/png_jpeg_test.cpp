@@ -11,12 +11,12 @@ namespace scotopic {
 namespace {
 
 using test::Chunk;
+using test::as_codes;
 using test::Expected;
+using test::in_srgb;
 using test::Rgb;
 
 const std::vector<std::uint16_t> pixel = {128 * 257, 64 * 257, 200 * 257};
-const Rgb codes = {128 / 255.0, 64 / 255.0, 200 / 255.0};
-const Rgb in_srgb = {test::srgb_light(128), test::srgb_light(64), test::srgb_light(200)};
 
 Chunk gama(std::uint32_t value) { return {"gAMA", test::big_endian(value)}; }
 Chunk cicp(char primaries, char transfer) { return {"cICP", std::string({primaries, transfer, 0, 1})}; }
@@ -38,8 +38,8 @@ TEST(Brothers, chunks_of_png) {
   const std::vector<PngRow> rows = {
       {{cicp(1, 8), cicp(9, 16)},
        {},
-       {"two cICP: the first", codes, 1e-4, "second chunk cICP is left alone"}},
-      {{gama(100000), gama(45455)}, {}, {"two gAMA", codes, 1e-4, "second chunk gAMA is left alone"}},
+       {"two cICP: the first", as_codes, 1e-4, "second chunk cICP is left alone"}},
+      {{gama(100000), gama(45455)}, {}, {"two gAMA", as_codes, 1e-4, "second chunk gAMA is left alone"}},
       {{}, {gama(100000)}, {"gAMA behind the pixels", in_srgb, 1e-4, "chunk gAMA stands behind the pixels"}},
       {{}, {cicp(9, 16)}, {"cICP behind the pixels", in_srgb, 1e-4, "chunk cICP stands behind the pixels"}},
       {{{"cICP", "\1\10"}}, {}, {"a short cICP", in_srgb, 1e-4, "cICP is not of its size"}},
@@ -51,7 +51,7 @@ TEST(Brothers, chunks_of_png) {
        {"an animation", in_srgb, 1e-4, "one of its 2 frames"}},
       {{{"eXIf", test::exif_block({}, {{42240, 5, {1}}})}},
        {},
-       {"Exif gamma 1", codes, 1e-4, "Exif gamma 1"}},
+       {"Exif gamma 1", as_codes, 1e-4, "Exif gamma 1"}},
   };
   for (const PngRow& row : rows) {
     test::write_bytes(test::place("in.png"),

@@ -7,7 +7,7 @@ namespace scotopic {
 namespace {
 
 /// Pixels i = 1, 2, ... of i/16 in red.
-std::string radiance(const std::string& lines, const std::string& order, int pixels) {
+std::string radiance_of(const std::string& lines, const std::string& order, int pixels) {
   std::string out = "#?RADIANCE\n" + lines + "FORMAT=32-bit_rle_rgbe\n\n" + order + "\n";
   for (int i = 1; i <= pixels; ++i)
     out += std::string({static_cast<char>(i * 16), 0, 0, static_cast<char>(128)});
@@ -25,7 +25,7 @@ TEST(Brothers, orders_of_radiance_are_of_its_own_axes) {
                                      {"+Y 2 +X 3", 4, 5}, {"+X 3 -Y 2", 1, 3}, {"+X 3 +Y 2", 2, 4},
                                      {"-X 3 +Y 2", 6, 4}, {"-X 3 -Y 2", 5, 3}};
   for (const Order& order : orders) {
-    test::write_bytes(test::place("in.hdr"), radiance("", order.text, 6));
+    test::write_bytes(test::place("in.hdr"), radiance_of("", order.text, 6));
     ASSERT_EQ(test::apply(test::place("in.hdr"), test::place("out.exr")).exit_code, 0) << order.text;
     EXPECT_NEAR(test::pixel_of(test::place("out.exr"), {"R"})[0], order.upper_left / 16.0, 4e-3)
         << order.text;
@@ -48,7 +48,7 @@ TEST(Brothers, lines_of_radiance) {
       {"PRIMARIES=0.64 0.33 0.3 0.6 0.15 0.06\n", {"six", {}, 0, "", "its PRIMARIES is not 8 numbers"}},
   };
   for (const auto& [lines, expected] : rows) {
-    test::write_bytes(test::place("in.hdr"), radiance(lines, "-Y 1 +X 1", 1));
+    test::write_bytes(test::place("in.hdr"), radiance_of(lines, "-Y 1 +X 1", 1));
     test::expect_row(test::place("in.hdr"), expected);
   }
 }

@@ -47,4 +47,8 @@ std::string with_segment(const std::string& jpeg, char marker, const std::string
 /// IEC 61966-2-1's, of a code of 8 bits.
 double srgb_light(double code);
 
+/// What the codes 128, 64, 200 mean as they are, and as sRGB's.
+inline const Rgb as_codes = {128 / 255.0, 64 / 255.0, 200 / 255.0};
+inline const Rgb in_srgb = {srgb_light(128), srgb_light(64), srgb_light(200)};
+
 }  // namespace scotopic::test

@@ -9,14 +9,14 @@
 namespace scotopic {
 namespace {
 
+using test::as_codes;
 using test::Expected;
+using test::in_srgb;
 using test::Rgb;
 using test::TiffField;
 using test::TiffSamples;
 
 const TiffSamples bytes{{128, 64, 200}};
-const Rgb in_srgb = {test::srgb_light(128), test::srgb_light(64), test::srgb_light(200)};
-const Rgb codes = {128 / 255.0, 64 / 255.0, 200 / 255.0};
 // P3's primaries, white D65; (0.6, 0.3, 0.1) in linear BT.709 by the two matrices.
 const std::vector<double> p3 = {0.68, 0.32, 0.265, 0.69, 0.15, 0.06};
 const Rgb p3_bytes = {0.25288, 0.044347, 0.62607}, p3_floats = {0.66748, 0.28738, 0.074454};
@@ -36,7 +36,7 @@ std::vector<double> thrice(const std::vector<double>& one) {
 }
 
 Rgb powers(double exponent) {
-  return {std::pow(codes[0], exponent), std::pow(codes[1], exponent), std::pow(codes[2], exponent)};
+  return {std::pow(as_codes[0], exponent), std::pow(as_codes[1], exponent), std::pow(as_codes[2], exponent)};
 }
 
 const std::vector<double> d65 = {0.3127, 0.3290};
@@ -49,7 +49,7 @@ TEST(Brothers, tags_of_tiff) {
     test::expect_row(test::place("in.tif"), row);
   };
   expect(bytes, {}, {"plain", in_srgb});
-  expect(bytes, {{301, 3, table(256, 1)}}, {"TransferFunction, linear", codes, 1e-4, "TransferFunction"});
+  expect(bytes, {{301, 3, table(256, 1)}}, {"TransferFunction, linear", as_codes, 1e-4, "TransferFunction"});
   expect(bytes, {{301, 3, thrice(table(256, 1.8))}}, {"TransferFunction, three of 1.8", powers(1.8)});
   expect(bytes, {{301, 3, table(256, 1)}, {318, 5, d65}, {319, 5, p3}},
          {"TransferFunction and primaries",

@@ -46,6 +46,9 @@ class MeaningInXyz {
   void* transform_ = nullptr;
 };
 
+/// Pixels of the files that are made here.
+constexpr int sample_width = 19, sample_height = 11;
+
 struct Sample {
   std::string file;
   std::string what;

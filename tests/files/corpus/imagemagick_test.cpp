@@ -28,10 +28,10 @@ using test::bytes_of;
 
 using test::Meaning;
 using test::Sample;
+using test::sample_height;
+using test::sample_width;
 using test::Tally;
 using Words = std::vector<std::string>;
-
-constexpr int width = 19, height = 11;
 
 std::uint32_t number(const std::string& bytes, std::size_t at) {
   std::uint32_t out = 0;
@@ -68,8 +68,8 @@ struct Source {
 Source make_source(bool colour, bool alpha) {
   Source out;
   std::string bytes;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
+  for (int y = 0; y < sample_height; ++y)
+    for (int x = 0; x < sample_width; ++x) {
       std::array<int, 4> codes = {(x * 13 + y * 3) % 256, (x * 5 + y * 21) % 256, (x * 9 + 40) % 256,
                                   64 + 10 * x};
       if (!colour) codes[1] = codes[2] = codes[0];
@@ -83,7 +83,7 @@ Source make_source(bool colour, bool alpha) {
   out.file = test::place(colour ? (alpha ? "source.rgba" : "source.rgb") : "source.gray");
   test::write_bytes(out.file, bytes);
   const std::string format = colour ? (alpha ? "rgba:" : "rgb:") : "gray:";
-  out.words = {"-size", std::to_string(width) + "x" + std::to_string(height), "-depth", "16",
+  out.words = {"-size", std::to_string(sample_width) + "x" + std::to_string(sample_height), "-depth", "16",
                format + out.file};
   return out;
 }

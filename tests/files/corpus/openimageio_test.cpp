@@ -13,14 +13,14 @@ namespace {
 
 using test::judge;
 using test::Meaning;
+using test::sample_height;
+using test::sample_width;
 using test::Tally;
-
-constexpr int width = 19, height = 11;
 
 std::vector<float> pixels_of(int channels, bool associated) {
   std::vector<float> out;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
+  for (int y = 0; y < sample_height; ++y)
+    for (int x = 0; x < sample_width; ++x) {
       const float alpha = channels % 2 == 0 ? 0.25f + 0.05f * static_cast<float>(x % 15) : 1.0f;
       const int colours = channels > 2 ? 3 : 1;
       for (int c = 0; c < colours; ++c)
@@ -38,7 +38,7 @@ bool write(const std::string& file, const OIIO::ImageSpec& spec, const std::vect
 }
 
 OIIO::ImageSpec spec_of(int channels, OIIO::TypeDesc type, int tile) {
-  OIIO::ImageSpec spec(width, height, channels, type);
+  OIIO::ImageSpec spec(sample_width, sample_height, channels, type);
   if (tile > 0) spec.tile_width = spec.tile_height = tile;
   return spec;
 }

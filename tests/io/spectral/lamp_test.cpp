@@ -16,19 +16,7 @@
 namespace scotopic {
 namespace {
 
-constexpr int patches = 24;
 constexpr double cdm2 = 0.1;
-
-std::vector<test::SceneSpectrum> write_chart(const std::string& file, const char* lamp) {
-  const auto light = test::lit(test::reflectances("macbeth"), test::lamp(lamp), cdm2);
-  test::TestImage image;
-  image.width = patches;
-  image.height = 1;
-  image.parts = {test::band_channels(light, patches, test::band_centres(360, 1, 830), 1, test::stokes_name)};
-  image.text_attributes = {{"emissiveUnits", "W.m^-2.sr^-1.nm^-1"}};
-  test::write_exr(file, image);
-  return light;
-}
 
 ImageSettings settings(const Vec3<double>& lamp, const char* effects) {
   ImageSettings s(ColourConfig::own());
@@ -52,13 +40,13 @@ std::vector<Vec3<double>> seen(const std::string& in, const std::string& out, co
   const auto source = open_source(out, Limits{});
   Band band;
   source->read(0, 0, 1, band);
-  std::vector<Vec3<double>> rgb(patches);
+  std::vector<Vec3<double>> rgb(test::macbeth_patches);
   const auto& channels = source->subimages()[0].channels;
   for (std::size_t c = 0; c < channels.size(); ++c) {
-    std::vector<float> row(patches);
-    load_row(band.channels[c].row(0), patches, row.data());
+    std::vector<float> row(test::macbeth_patches);
+    load_row(band.channels[c].row(0), test::macbeth_patches, row.data());
     const std::size_t place = std::string("RGB").find(channels[c].name);
-    for (std::size_t i = 0; i < patches; ++i) rgb[i][place] = row[i];
+    for (std::size_t i = 0; i < test::macbeth_patches; ++i) rgb[i][place] = row[i];
   }
   return rgb;
 }
@@ -72,13 +60,13 @@ TEST(SpectralLamp, colours_are_those_of_cat16_on_what_the_bands_are) {
   const test::TemporaryFolder folder;
   test::WorstError worst;
   for (const char* lamp : {"a", "hps", "led3000"}) {
-    const auto light = write_chart(folder / "chart.exr", lamp);
+    const auto light = test::write_macbeth(folder / "chart.exr", lamp, cdm2, 1);
     const Vec3<double> white = white_under(lamp);
     const ImageSettings s = settings(white, "none");
     const Matrix3<double>& xyz_from_rgb = s.choice.parameters.xyz_from_rgb;
     const Matrix3<double> m = adapt_to_lamp(white, adaptation_degree(cdm2));
     const auto rgb = seen(folder / "chart.exr", folder / "seen.exr", s);
-    for (std::size_t i = 0; i < patches; ++i) {
+    for (std::size_t i = 0; i < test::macbeth_patches; ++i) {
       const auto truth = test::true_signals(light[i]);
       const Vec3<double> came = inverse(xyz_from_rgb) * Vec3<double>{truth[4], truth[5], truth[6]};
       const Vec3<double> expected = m * Vec3<double>{truth[4], truth[5], truth[6]};
@@ -97,7 +85,7 @@ TEST(SpectralLamp, receptors_of_spectra_are_adapted_and_rods_are_not) {
   const test::TemporaryFolder folder;
   test::WorstError worst;
   for (const char* lamp : {"a", "led3000"}) {
-    const auto light = write_chart(folder / "chart.exr", lamp);
+    const auto light = test::write_macbeth(folder / "chart.exr", lamp, cdm2, 1);
     const Vec3<double> white = white_under(lamp);
     const ImageSettings s = settings(white, "shift,luminance,chroma");
     const AppearanceParameters p = parameters_of(s.choice, cdm2, 1);
@@ -105,7 +93,7 @@ TEST(SpectralLamp, receptors_of_spectra_are_adapted_and_rods_are_not) {
     const Matrix3<double> m = adapt_to_lamp(white, adaptation_degree(cdm2));
     const auto rgb = seen(folder / "chart.exr", folder / "seen.exr", s);
     int compared = 0;
-    for (std::size_t i = 0; i < patches; ++i) {
+    for (std::size_t i = 0; i < test::macbeth_patches; ++i) {
       const auto truth = test::true_signals(light[i]);
       const Vec3<double> xyz = {truth[4], truth[5], truth[6]};
       const Vec3<double> came = inverse(p.xyz_from_rgb) * xyz, in_gamut = inverse(p.xyz_from_rgb) * (m * xyz);

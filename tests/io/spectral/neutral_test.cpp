@@ -14,21 +14,6 @@
 namespace scotopic {
 namespace {
 
-constexpr int patches = 24;
-
-/// Macbeth's patches in a row, as a spectral file under a lamp of so many cd/m2.
-std::vector<test::SceneSpectrum> write_chart(const std::string& file, const char* lamp, double cdm2) {
-  const auto light = test::lit(test::reflectances("macbeth"), test::lamp(lamp), cdm2);
-  test::TestImage image;
-  image.width = patches;
-  image.height = 2;
-  image.parts = {
-      test::band_channels(light, 2 * patches, test::band_centres(360, 1, 830), 1, test::stokes_name)};
-  image.text_attributes = {{"emissiveUnits", "W.m^-2.sr^-1.nm^-1"}};
-  test::write_exr(file, image);
-  return light;
-}
-
 Band read_pixels(const std::string& file) {
   const auto source = open_source(file, Limits{});
   Band band;
@@ -41,8 +26,8 @@ float value(const Band& band, const std::string& name, const std::string& file, 
   const auto& channels = source->subimages()[0].channels;
   for (std::size_t c = 0; c < channels.size(); ++c)
     if (channels[c].name == name) {
-      std::vector<float> row(patches);
-      load_row(band.channels[c].row(0), patches, row.data());
+      std::vector<float> row(test::macbeth_patches);
+      load_row(band.channels[c].row(0), test::macbeth_patches, row.data());
       return row[static_cast<std::size_t>(i)];
     }
   ADD_FAILURE() << "no channel " << name;
@@ -54,7 +39,7 @@ TEST(SpectralApply, light_adapted_result_is_the_cie_1931_image) {
   const ColourConfig config = ColourConfig::own();
   test::WorstError worst;
   for (const char* lamp : {"d65", "a", "moon", "hps", "lps", "led3000", "led4000"}) {
-    const auto light = write_chart(folder / "chart.exr", lamp, 100.0);
+    const auto light = test::write_macbeth(folder / "chart.exr", lamp, 100.0, 2);
     const auto source = open_spectral_source(folder / "chart.exr", {}, Limits{});
     ASSERT_NE(source, nullptr);
     const std::string output = folder / "seen.exr";
@@ -71,7 +56,7 @@ TEST(SpectralApply, light_adapted_result_is_the_cie_1931_image) {
       apply_image(*source, layout, config, stages, file);
     }
     const Band seen = read_pixels(output);
-    for (int i = 0; i < patches; ++i) {
+    for (int i = 0; i < test::macbeth_patches; ++i) {
       const auto truth = test::true_signals(light[static_cast<std::size_t>(i)]);
       const Vec3<double> rgb = {value(seen, "R", output, i), value(seen, "G", output, i),
                                 value(seen, "B", output, i)};
@@ -86,7 +71,7 @@ TEST(SpectralApply, light_adapted_result_is_the_cie_1931_image) {
 TEST(SpectralApply, lmsr_file_holds_the_signals_and_says_their_unit) {
   const test::TemporaryFolder folder;
   const ColourConfig config = ColourConfig::own();
-  const auto light = write_chart(folder / "chart.exr", "moon", 0.1);
+  const auto light = test::write_macbeth(folder / "chart.exr", "moon", 0.1, 2);
   SpectralOptions options;
   options.xyz = false;
   options.sampling = BandSampling::point;  // the standard sum of whole nanometres
@@ -105,7 +90,7 @@ TEST(SpectralApply, lmsr_file_holds_the_signals_and_says_their_unit) {
   const Band band = read_pixels(output);
   test::WorstError worst;
   const char* const names[] = {"L", "M", "S", "R"};
-  for (int i = 0; i < patches; ++i) {
+  for (int i = 0; i < test::macbeth_patches; ++i) {
     const auto truth = test::true_signals(light[static_cast<std::size_t>(i)]);
     for (std::size_t s = 0; s < 4; ++s)
       worst.add("patch " + std::to_string(i + 1) + " " + names[s], value(band, names[s], output, i), truth[s],
@@ -118,11 +103,11 @@ TEST(SpectralApply, rgb_becomes_the_receptor_signals_of_its_colour) {
   const test::TemporaryFolder folder;
   const ColourConfig config = ColourConfig::own();
   test::TestImage image;
-  image.width = patches;
+  image.width = test::macbeth_patches;
   image.height = 2;
   image.parts.emplace_back();
   for (const char* name : {"R", "G", "B"})
-    image.parts[0].push_back({name, std::vector<float>(2 * patches, 0.5f)});
+    image.parts[0].push_back({name, std::vector<float>(2 * test::macbeth_patches, 0.5f)});
   test::write_exr(folder / "grey.exr", image);
   const auto source = open_source(folder / "grey.exr", Limits{});
   const std::string output = folder / "lmsr.exr";

@@ -222,6 +222,18 @@ void write_exr(const std::string& path, const TestImage& image) {
   }
 }
 
+std::vector<SceneSpectrum> write_macbeth(const std::string& file, const std::string& lamp_name, double cdm2,
+                                         int rows) {
+  const auto light = lit(reflectances("macbeth"), lamp(lamp_name), cdm2);
+  TestImage image;
+  image.width = macbeth_patches;
+  image.height = rows;
+  image.parts = {band_channels(light, rows * macbeth_patches, band_centres(360, 1, 830), 1, stokes_name)};
+  image.text_attributes = {{"emissiveUnits", "W.m^-2.sr^-1.nm^-1"}};
+  write_exr(file, image);
+  return light;
+}
+
 TemporaryFolder::TemporaryFolder() {
   path_ = std::filesystem::temp_directory_path() / "scotopic-spectral-XXXXXX";
   if (mkdtemp(path_.data()) == nullptr) throw std::runtime_error("no temporary folder");

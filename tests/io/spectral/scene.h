@@ -67,6 +67,12 @@ std::vector<TestChannel> band_channels(const std::vector<SceneSpectrum>& pixels,
 /// "S0.450,0nm".
 std::string stokes_name(double nm);
 
+/// Macbeth's patches in a row, the same in each row, as a spectral file under a lamp of so many cd/m2; their
+/// light.
+constexpr int macbeth_patches = 24;
+std::vector<SceneSpectrum> write_macbeth(const std::string& file, const std::string& lamp_name, double cdm2,
+                                         int rows);
+
 /// A folder of its own for one test, removed at its end.
 class TemporaryFolder {
  public:

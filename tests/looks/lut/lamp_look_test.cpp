@@ -10,6 +10,7 @@
 #include "looks/lut/baked_look.h"
 #include "looks/lut/shipped_looks.h"
 #include "looks/lut/look_chain.h"
+#include "looks/lut/processor.h"
 #include "looks/support.h"
 #include "stages/reference.h"
 #include "stages/shared/colour_difference.h"
@@ -22,10 +23,6 @@ namespace {
 Lamp lamp_at(double x, double y) { return {{x / y, 1, (1 - x - y) / y}}; }
 const Lamp sodium = lamp_at(0.5266, 0.4133), incandescent = lamp_at(0.4476, 0.4074),
            sky = lamp_at(0.2500, 0.2600);
-
-OCIO::ConstCPUProcessorRcPtr processor_of(const Chain& chain) {
-  return cpu_processor(ocio_transform(chain), OCIO::Config::CreateRaw());
-}
 
 LookSpec spec_of(double adaptation, const Lamp& lamp, const char* gamut = "rec709") {
   LookSpec spec;
@@ -54,7 +51,8 @@ TEST(LampLook, is_as_near_to_the_program_as_stated) {
               {"sky", sky, "rec709", 0.1, 33, 0.12, 1.1, 6}};
   for (const auto& row : rows) {
     const LookSpec spec = spec_of(row.adaptation, row.lamp, row.working);
-    const BakeError e = measure_look(spec, processor_of(look_chain(spec.parameters, row.edge, spec.lamp)));
+    const BakeError e =
+        measure_look(spec, test::processor_of(look_chain(spec.parameters, row.edge, spec.lamp)));
     std::printf("%-12s %-6s La %-4g %zu: mean %.4f 99 %% %.4f max %.4f at (%.4g, %.4g, %.4g)\n", row.name,
                 row.working, row.adaptation, row.edge, e.mean, e.p99, e.max, e.worst[0], e.worst[1],
                 e.worst[2]);
@@ -73,7 +71,7 @@ TEST(LampLook, takes_white_under_the_lamp_to_grey_as_far_as_the_degree_says) {
     Vec3<double> expected;
     for (std::size_t i = 0; i < 3; ++i)
       expected[i] = degree * adapted_white[i] + (1 - degree) * sodium.white[i];
-    const auto processor = processor_of(look_chain(spec.parameters, 33, spec.lamp));
+    const auto processor = test::processor_of(look_chain(spec.parameters, 33, spec.lamp));
     for (const double level : {0.01, 0.18, 1.0}) {
       const Vec3<double> rgb = inverse(xyz_from_rgb) * sodium.white;
       float pixel[3];
@@ -88,7 +86,7 @@ TEST(LampLook, takes_white_under_the_lamp_to_grey_as_far_as_the_degree_says) {
 TEST(LampLook, every_number_in_gives_a_finite_one_out_and_black_stays_black) {
   for (const Lamp& lamp : {sodium, sky}) {
     const LookSpec spec = spec_of(0.1, lamp);
-    const OddPixels odd = odd_pixels(processor_of(look_chain(spec.parameters, 33, spec.lamp)));
+    const OddPixels odd = odd_pixels(test::processor_of(look_chain(spec.parameters, 33, spec.lamp)));
     EXPECT_EQ(odd.not_finite, 0u);
     EXPECT_EQ(odd.alpha_changed, 0u);
     EXPECT_TRUE(odd.black_stays_black);

@@ -11,6 +11,7 @@
 #include "stages/reference.h"
 #include "looks/verify/measure.h"
 #include "looks/chain/ocio_chain.h"
+#include "looks/lut/processor.h"
 #include "looks/support.h"
 
 namespace OCIO = OCIO_NAMESPACE;
@@ -19,10 +20,7 @@ namespace scotopic {
 namespace {
 
 using test::adapted_to;
-
-OCIO::ConstCPUProcessorRcPtr processor_of(const Chain& chain) {
-  return cpu_processor(ocio_transform(chain), OCIO::Config::CreateRaw());
-}
+using test::processor_of;
 
 OCIO::ConstCPUProcessorRcPtr look(const AppearanceParameters& p, std::size_t edge = 33) {
   return processor_of(look_chain(p, edge));

@@ -18,7 +18,7 @@ using test::Image;
 constexpr float inf = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-std::vector<AcuityParameters> every_way(double sigma) {
+std::vector<AcuityParameters> each_engine(double sigma) {
   std::vector<AcuityParameters> ways;
   for (AcuitySpace space : {AcuitySpace::light, AcuitySpace::lab})
     for (AcuityEngine engine : {AcuityEngine::window, AcuityEngine::cells}) {
@@ -47,7 +47,7 @@ void expect_same_bits(const Image& a, const Image& b) {
 
 TEST(AcuityFilter, constant_images_come_back_bit_for_bit) {
   for (double sigma : {1.3, 4.0, 17.0})
-    for (const AcuityParameters& p : every_way(sigma))
+    for (const AcuityParameters& p : each_engine(sigma))
       for (const auto& [r, g, b] :
            {Vec3<float>{0.2f, 0.7f, 0.1f}, Vec3<float>{0, 0, 0}, Vec3<float>{-0.01f, 0.3f, 2e4f}}) {
         const Image image = constant(67, 53, r, g, b);
@@ -67,7 +67,7 @@ TEST(AcuityFilter, sigma_0_and_strength_0_are_the_identity) {
 
 TEST(AcuityFilter, strength_mixes_input_and_result_in_linear_light) {
   const Image image = test::night(60, 40);
-  for (AcuityParameters p : every_way(4.0)) {
+  for (AcuityParameters p : each_engine(4.0)) {
     const Image whole = test::filtered(p, image);
     p.strength = 0.25;
     const Image part = test::filtered(p, image);
@@ -98,7 +98,7 @@ TEST(AcuityFilter, texture_goes_and_the_edge_stays) {
       }
     return std::sqrt(squares / n - sum * sum / (n * n)) / (sum / n);
   };
-  for (const AcuityParameters& p : every_way(4.0)) {
+  for (const AcuityParameters& p : each_engine(4.0)) {
     const Image out = test::filtered(p, image);
     EXPECT_LT(spread(out, 45, 70), 0.12 * spread(image, 45, 70));
     for (int y = 0; y < 40; ++y) {
@@ -123,7 +123,7 @@ TEST(AcuityFilter, hostile_pixels_never_spread_and_stay_themselves) {
   };
   for (const Hostile& h : hostile)
     for (double sigma : {2.0, 6.0, 30.0})
-      for (const AcuityParameters& p : every_way(sigma)) {
+      for (const AcuityParameters& p : each_engine(sigma)) {
         Image image = constant(61, 47, 0.21f, 0.2f, 0.23f);
         const std::size_t at = image.at(30, 20);
         for (std::size_t k = 0; k < 3; ++k) image.planes[k][at] = h.rgb[k];
@@ -145,7 +145,7 @@ TEST(AcuityFilter, results_are_finite_where_the_input_is_whatever_surrounds_it) 
     image.planes[i % 3][image.at(x, y)] = bad[i % 10];
   }
   for (double sigma : {2.0, 5.0, 20.0})
-    for (const AcuityParameters& p : every_way(sigma)) {
+    for (const AcuityParameters& p : each_engine(sigma)) {
       const Image out = test::filtered(p, image);
       for (std::size_t i = 0; i < out.planes[0].size(); ++i) {
         bool finite = true;

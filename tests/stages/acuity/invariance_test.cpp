@@ -58,7 +58,7 @@ int differing(const Image& a, const Image& b) {
   return count;
 }
 
-std::vector<AcuityParameters> every_way() {
+std::vector<AcuityParameters> engines_and_widths() {
   std::vector<AcuityParameters> ways;
   for (double sigma : {1.4, 3.7, 9.0, 25.0})
     for (AcuitySpace space : {AcuitySpace::light, AcuitySpace::lab})
@@ -81,7 +81,7 @@ Image with_holes() {
 
 TEST(AcuityInvariance, tiles_and_windows_do_not_show_bit_for_bit) {
   const Image image = with_holes();
-  for (const AcuityParameters& p : every_way()) {
+  for (const AcuityParameters& p : engines_and_widths()) {
     const AcuityFilter filter(p);
     const Image whole = test::filtered(p, image);
     for (const auto& [w, h, extra] : {Vec3<int>{151, 16, 0}, Vec3<int>{37, 29, 3}, Vec3<int>{64, 64, 0},
@@ -106,7 +106,7 @@ TEST(AcuityInvariance, threads_do_not_show_bit_for_bit) {
   const ParallelFor backwards = [](int count, const std::function<void(int)>& task) {
     for (int i = count; i-- > 0;) task(i);
   };
-  for (const AcuityParameters& p : every_way()) {
+  for (const AcuityParameters& p : engines_and_widths()) {
     const Image one = test::filtered(p, image);
     EXPECT_EQ(differing(one, test::filtered(p, image, threads)), 0) << "sigma " << p.sigma;
     EXPECT_EQ(differing(one, test::filtered(p, image, backwards)), 0) << "sigma " << p.sigma;
@@ -115,7 +115,7 @@ TEST(AcuityInvariance, threads_do_not_show_bit_for_bit) {
 
 TEST(AcuityInvariance, tall_images_do_not_show_their_strips) {
   const Image image = test::night(24, 700);
-  for (const AcuityParameters& p : every_way()) {
+  for (const AcuityParameters& p : engines_and_widths()) {
     const Image whole = test::filtered(p, image);
     EXPECT_EQ(differing(whole, in_tiles(AcuityFilter(p), image, 24, 90, 0)), 0) << "sigma " << p.sigma;
   }
@@ -127,7 +127,7 @@ TEST(AcuityInvariance, every_instruction_set_agrees_within_rounding) {
     hwy::SetSupportedTargetsForTest(targets);
     hwy::GetChosenTarget().DeInit();
   };
-  for (const AcuityParameters& p : every_way()) {
+  for (const AcuityParameters& p : engines_and_widths()) {
     chosen(0);
     const Image best = test::filtered(p, image);
     double worst = 0.0;

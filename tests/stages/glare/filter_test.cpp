@@ -18,15 +18,12 @@ namespace {
 
 using test::filtered;
 using test::night;
+using test::parameters;
 using test::Picture;
 using test::Plane;
 using test::same_bits;
 using test::square_grid;
 using test::sum;
-
-GlareParameters parameters(int width, int height, double ppd = 20, GlareRule rule = GlareRule::above) {
-  return {{}, square_grid(width, height, ppd), rule, 1};
-}
 
 TEST(GlareFilter, flat_pictures_keep_their_bits) {
   for (const GlareRule rule : {GlareRule::above, GlareRule::all})

@@ -24,11 +24,12 @@ using test::Picture;
 using test::Plane;
 using test::same_bits;
 using test::sum;
+using test::Worst;
 
 constexpr double share = 0.033;
 constexpr double radians = std::numbers::pi / 180;
 
-GlareParameters parameters(int width, int height, double ppd, GlareRule rule = GlareRule::all) {
+GlareParameters halo_parameters(int width, int height, double ppd, GlareRule rule = GlareRule::all) {
   return {{28.58, 0.5, share}, test::square_grid(width, height, ppd), rule, 1};
 }
 
@@ -78,11 +79,6 @@ double over_pixel(const GlareGrid& grid, int dx, int dy, double wavelength) {
   return out / (steps * steps);
 }
 
-struct Worst {
-  double error = 0;
-  int dx = 0, dy = 0;
-};
-
 /// Largest difference of a drawn ring from the function, of its peak; 2 to 4.5 degrees from a lamp at (x, y).
 Worst worst_of(const GlareGrid& grid, std::size_t plane, int x, int y) {
   GlareParameters with = {{28.58, 0.5, share}, grid, GlareRule::all, 1}, without = with;
@@ -125,7 +121,7 @@ TEST(GlareHalo, is_drawn_as_the_function_has_it) {
 }
 
 TEST(GlareHalo, is_red_outside_and_blue_inside) {
-  const Picture out = filtered(parameters(401, 61, 40), lamp(401, 61, 200, 30));
+  const Picture out = filtered(halo_parameters(401, 61, 40), lamp(401, 61, 200, 30));
   const auto brightest = [&](std::size_t k) {
     int best = 80;
     for (int d = 80; d < 180; ++d)
@@ -138,18 +134,18 @@ TEST(GlareHalo, is_red_outside_and_blue_inside) {
 TEST(GlareHalo, takes_its_light_from_the_lamp) {
   for (const auto& [w, h] : {std::pair{260, 240}, {77, 53}, {30, 20}, {1, 300}})
     for (const GlareRule rule : {GlareRule::above, GlareRule::all}) {
-      const Picture in = lamps(w, h), out = filtered(parameters(w, h, 32, rule), in);
+      const Picture in = lamps(w, h), out = filtered(halo_parameters(w, h, 32, rule), in);
       for (std::size_t k = 0; k < 3; ++k)
         EXPECT_NEAR(sum(out.planes[k]) / sum(in.planes[k]), 1, 4e-7) << w << "x" << h << " plane " << k;
     }
-  GlareParameters p = parameters(512, 256, 512 / 360.0);
+  GlareParameters p = halo_parameters(512, 256, 512 / 360.0);
   p.grid.sides = GlareSides::meet;
   const Picture in = lamps(512, 256), out = filtered(p, in);
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(sum(out.planes[k]) / sum(in.planes[k]), 1, 4e-7);
 }
 
 TEST(GlareHalo, goes_around_a_panorama) {
-  GlareParameters p = parameters(1024, 64, 20);
+  GlareParameters p = halo_parameters(1024, 64, 20);
   p.grid.sides = GlareSides::meet;
   const Picture out = filtered(p, lamp(1024, 64, 0, 32));  // on a sample of every level
   for (int d = 1; d < 100; ++d)
@@ -159,14 +155,15 @@ TEST(GlareHalo, goes_around_a_panorama) {
 TEST(GlareHalo, leaves_flat_pictures_their_bits) {
   for (const float value : {0.3f, 1.7f, 3e20f}) {
     Picture picture(177, 153, value);
-    EXPECT_TRUE(same_bits(filtered(parameters(177, 153, 30), picture), picture)) << value;
+    EXPECT_TRUE(same_bits(filtered(halo_parameters(177, 153, 30), picture), picture)) << value;
     picture.planes[2](5, 6) = std::nanf("");
-    EXPECT_TRUE(same_bits(filtered(parameters(177, 153, 30), picture), picture)) << value << " with a NaN";
+    EXPECT_TRUE(same_bits(filtered(halo_parameters(177, 153, 30), picture), picture))
+        << value << " with a NaN";
   }
 }
 
 TEST(GlareHalo, weighs_both_ways_alike) {
-  const GlareParameters p = parameters(250, 200, 32);
+  const GlareParameters p = halo_parameters(250, 200, 32);
   for (int i = 0; i < 8; ++i) {
     const int ax = i * 37 % 250, ay = i * 11 % 200, bx = (ax + 90) % 250, by = (ay + 30) % 200;
     const Picture there = filtered(p, lamp(250, 200, ax, ay)), back = filtered(p, lamp(250, 200, bx, by));
@@ -180,9 +177,9 @@ TEST(GlareHalo, what_is_not_finite_neither_spreads_nor_darkens) {
   for (Plane& plane : in.planes)
     for (int y = 0; y < 200; ++y)
       for (int x = 125; x < 250; ++x) plane(x, y) = 1000;
-  const Picture whole = filtered(parameters(250, 200, 32), in);
+  const Picture whole = filtered(halo_parameters(250, 200, 32), in);
   in.planes[1](180, 100) = std::nanf("");
-  const Picture out = filtered(parameters(250, 200, 32), in);
+  const Picture out = filtered(halo_parameters(250, 200, 32), in);
   for (int y = 0; y < 200; ++y)
     for (int x = 0; x < 250; ++x) {
       if (x == 180 && y == 100) continue;
@@ -194,7 +191,7 @@ TEST(GlareHalo, what_is_not_finite_neither_spreads_nor_darkens) {
 
 TEST(GlareHalo, threads_and_instruction_sets_do_not_show) {
   const Picture in = lamps(211, 420);
-  const GlareParameters p = parameters(211, 420, 24, GlareRule::above);
+  const GlareParameters p = halo_parameters(211, 420, 24, GlareRule::above);
   const Picture one = filtered(p, in);
   for (const int n : {2, 5}) EXPECT_TRUE(same_bits(one, filtered(p, in, test::threads(n)))) << n;
   for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {

@@ -46,6 +46,10 @@ inline GlareGrid square_grid(int width, int height, double ppd) {
   return {width, height, ppd, ppd, GlareSides::end, 1};
 }
 
+inline GlareParameters parameters(int width, int height, double ppd = 20, GlareRule rule = GlareRule::above) {
+  return {{}, square_grid(width, height, ppd), rule, 1};
+}
+
 inline ParallelFor threads(int n) {
   return [n](int count, const std::function<void(int)>& task) {
     std::atomic<int> next{0};
@@ -146,6 +150,12 @@ inline bool same_bits(const Picture& a, const Picture& b) {
       return false;
   return true;
 }
+
+/// The largest error, and how many pixels away from its source.
+struct Worst {
+  double error = 0;
+  int dx = 0, dy = 0;
+};
 
 inline double sum(const Plane& plane) {
   return std::accumulate(plane.values.begin(), plane.values.end(), 0.0);

@@ -23,7 +23,7 @@ double luminance(const Picture& p, std::size_t i) {
          weights[2] * double{p.planes[2].values[i]};
 }
 
-GlareParameters parameters(int width, int height, double ppd, double halo = 0) {
+GlareParameters need_parameters(int width, int height, double ppd, double halo = 0) {
   return {{28.58, 0.5, halo}, test::square_grid(width, height, ppd), GlareRule::above, 1};
 }
 
@@ -51,7 +51,7 @@ void bounds_the_rise_of_every_pixel_on_200_scenes(double halo) {
     const double ppd = 3 + static_cast<double>(random() % 60);
     const Picture in = scene(random, width, height, n % 2 == 0 ? 0.9 : 0.05, n % 3 == 0 ? 5 : 3);
     Picture out = in;
-    const GlareFilter filter(parameters(width, height, ppd, halo));
+    const GlareFilter filter(need_parameters(width, height, ppd, halo));
     const GlareNeed need = filter.need(out.view(), weights);
     filter.apply(out.view());
     above += need.above > 0;
@@ -93,7 +93,7 @@ TEST(GlareNeed, bounds_it_with_a_halo_too) { bounds_the_rise_of_every_pixel_on_2
 
 // The last column of blocks is one pixel wide: around it the neighbour's pixels are near.
 TEST(GlareNeed, bounds_the_rise_across_the_sides_of_a_panorama) {
-  GlareParameters p = parameters(161, 80, 161 / 360.0);
+  GlareParameters p = need_parameters(161, 80, 161 / 360.0);
   p.grid.sides = GlareSides::meet;
   const GlareFilter filter(p);
   int skipped = 0, called_for = 0;
@@ -118,7 +118,7 @@ TEST(GlareNeed, bounds_the_rise_across_the_sides_of_a_panorama) {
 
 TEST(GlareNeed, says_how_many_pixels_and_why) {
   Picture picture(100, 80, 0.5f);
-  const GlareFilter filter(parameters(100, 80, 20));
+  const GlareFilter filter(need_parameters(100, 80, 20));
   EXPECT_FALSE(filter.need(picture.view(), weights).called_for);
   for (int k = 0; k < 3; ++k) picture.planes[static_cast<std::size_t>(k)](20 + k, 20) = 1;  // at, not above
   EXPECT_EQ(filter.need(picture.view(), weights).reason, "no pixel is above 1");
@@ -136,7 +136,7 @@ TEST(GlareNeed, is_the_same_where_the_rows_greatest_components_are_known) {
     Picture picture = scene(random, 93, 70, n % 2 == 0 ? 0.9 : 0.05, 4);
     if (n % 3 == 0) picture.planes[1](40, 30) = std::nanf("");
     if (n % 5 == 0) picture.planes[2](50, 31) = std::numeric_limits<float>::infinity();
-    const GlareFilter filter(parameters(93, 70, 20));
+    const GlareFilter filter(need_parameters(93, 70, 20));
     GlarePicture view = picture.view();
     const GlareNeed read = filter.need(view, weights);
     std::vector<float> greatest;
@@ -164,7 +164,7 @@ TEST(GlareNeed, a_row_s_greatest_component_is_that_of_its_finite_pixels) {
 }
 
 TEST(GlareNeed, all_is_called_for_unless_the_picture_is_nearly_flat) {
-  GlareParameters p = parameters(64, 64, 20);
+  GlareParameters p = need_parameters(64, 64, 20);
   p.rule = GlareRule::all;
   Picture picture(64, 64, 0.5f);
   const GlareFilter filter(p);
@@ -181,7 +181,7 @@ TEST(GlareNeed, all_is_called_for_unless_the_picture_is_nearly_flat) {
 TEST(GlareNeed, threads_do_not_show) {
   std::mt19937 random(9);
   Picture picture = scene(random, 300, 200, 0.9, 3);
-  const GlareFilter filter(parameters(300, 200, 30));
+  const GlareFilter filter(need_parameters(300, 200, 30));
   const GlareNeed one = filter.need(picture.view(), weights),
                   five = filter.need(picture.view(), weights, test::threads(5));
   EXPECT_EQ(one.veil, five.veil);

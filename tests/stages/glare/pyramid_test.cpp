@@ -14,6 +14,7 @@ using test::convolved;
 using test::exact_weight;
 using test::Plane;
 using test::square_grid;
+using test::Worst;
 
 Plane point(int width, int height, int x, int y) {
   Plane out(width, height);
@@ -50,11 +51,6 @@ TEST(GlarePyramid, light_that_leaves_a_pixel_is_that_of_the_function) {
               0.0030);
   EXPECT_NEAR(double{sums(0, 0) - convolved(function, grid, point(129, 97, 0, 0))(0, 0)}, 0.201987, 0.0015);
 }
-
-struct Worst {
-  double error = 0;
-  int dx = 0, dy = 0;
-};
 
 // Every distance near the source, then ever larger steps, 0.05 to 60 degrees.
 Worst worst_error(const GlareGrid& grid, int x, int y) {

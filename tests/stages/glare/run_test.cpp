@@ -15,13 +15,10 @@ namespace {
 
 using test::filtered;
 using test::night;
+using test::parameters;
 using test::Picture;
 using test::Plane;
 using test::same_bits;
-
-GlareParameters parameters(int width, int height, double ppd = 20, GlareRule rule = GlareRule::above) {
-  return {{}, test::square_grid(width, height, ppd), rule, 1};
-}
 
 TEST(GlareRun, threads_do_not_show) {
   Picture in = night(211, 420, 40);

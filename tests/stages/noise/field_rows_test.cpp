@@ -2,7 +2,6 @@
 #include "stages/noise/field_rows.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +9,13 @@
 #include <numeric>
 #include <vector>
 
+#include "stages/noise/pitch.h"
+#include "support/simd_targets.h"
+
 namespace scotopic::noise {
 namespace {
 
-constexpr double time_pitch = 0.1 * 151 / 315;
+using test::time_pitch;
 
 Field field_of(double pitch) { return fixed_field({pitch, time_pitch, 11}); }
 
@@ -25,19 +27,16 @@ double reference(const Field& field, const View& view, std::int64_t x, std::int6
 
 TEST(FieldRows, are_the_doubles_of_the_reference_on_every_target) {
   const View view{40, 480, 270, 7.0 / 24};
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    hwy::SetSupportedTargetsForTest(target);
+  test::on_every_target([&](const char* target) {
     for (const Field& field :
          {field_of(0.106), field_of(0.75 / 40), field_of(3), octave_field(0.11, time_pitch, 2)}) {
       FieldRows rows(field, view, -5, 67);
       for (const std::int64_t y : {-3, 0, 1, 2, 17, 16, 539}) {
         const double* n = rows.row(y);
-        for (std::int64_t i = 0; i < 67; ++i)
-          ASSERT_EQ(n[i], reference(field, view, i - 5, y)) << hwy::TargetName(target);
+        for (std::int64_t i = 0; i < 67; ++i) ASSERT_EQ(n[i], reference(field, view, i - 5, y)) << target;
       }
     }
-  }
-  hwy::SetSupportedTargetsForTest(0);
+  });
 }
 
 TEST(FieldRows, tiles_and_crops_show_the_same_field) {

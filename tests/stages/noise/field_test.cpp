@@ -9,9 +9,12 @@
 #include <cstdio>
 
 #include "stages/noise/philox.h"
+#include "stages/noise/pitch.h"
 
 namespace scotopic::noise {
 namespace {
+
+using test::time_pitch;
 
 TEST(Philox, gives_the_words_of_random123) {
   // Known-answer vectors of Random123 1.09, kat_vectors, philox4x32 10.
@@ -31,9 +34,6 @@ TEST(NoiseField, lattice_values_are_these_doubles) {
   EXPECT_NE(lattice_value({1, 1, 1, 0}, 0, 0, 0), lattice_value({1, 1, 1, 1}, 0, 0, 0));
   EXPECT_EQ(lattice_value({1, 1, 1}, -1, 0, 0), lattice_value({1, 1, 1}, (std::int64_t{1} << 32) - 1, 0, 0));
 }
-
-// The pool's own correlation makes pitch in time tau 151/315.
-constexpr double time_pitch = 0.1 * 151 / 315;
 
 TEST(NoiseField, values_are_those_computed_apart) {
   const Lattice lattice{0.2, time_pitch, 7};
