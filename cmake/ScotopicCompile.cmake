@@ -42,3 +42,12 @@ function(scotopic_simd_room target)
   scotopic_room(${target} ${ARGN})
   set_source_files_properties(${ARGN} TARGET_DIRECTORY ${target} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
+
+# scotopic_words(TARGET): for code that reads options and prints; what it does most of the time is being compiled, for the
+# headers of CLI11 and JSON.
+function(scotopic_words target)
+  if(NOT CMAKE_UNITY_BUILD)
+    target_precompile_headers(${target} PRIVATE <CLI/CLI.hpp> <fmt/format.h> <nlohmann/json.hpp>)
+  endif()
+  target_compile_options(${target} PRIVATE $<IF:$<BOOL:${SCOTOPIC_SANITIZE}>,-O0,$<$<CONFIG:Release>:-O1>>)
+endfunction()

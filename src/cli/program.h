@@ -5,7 +5,7 @@
 #include <functional>
 #include <memory>
 
-#include "cli/console.h"
+#include "report/console.h"
 #include "cli/sequence/provenance.h"
 #include "cli/verbs/verbs.h"
 #include "pipeline/stages/stage_values.h"

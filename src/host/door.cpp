@@ -1,5 +1,5 @@
 // What is installed of the operator (scotopic/operator.h), over what hosts use here.
-#include "cli/report/scene_json.h"
+#include "report/scene_json.h"
 #include "host/operator.h"
 #include "pipeline/rows/threads.h"
 #include "scotopic/operator.h"

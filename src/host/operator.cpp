@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "cli/bake/bake_options.h"
-#include "cli/report/scene_json.h"
+#include "bake/bake_options.h"
+#include "report/scene_json.h"
 #include "pipeline/memory/kept_filters.h"
 #include "pipeline/stages/display_stages.h"
 

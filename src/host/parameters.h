@@ -1,7 +1,7 @@
 // Parameters by name, as the program's options.
 #pragma once
 
-#include "cli/scene/apply_settings.h"
+#include "options/scene/apply_settings.h"
 #include "scotopic/parameters.h"
 
 namespace scotopic {

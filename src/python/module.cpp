@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "cli/report/image_report.h"
+#include "report/image_report.h"
 #include "host/operator.h"
 #include "pipeline/rows/threads.h"
 #include "python/arrays.h"

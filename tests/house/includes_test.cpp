@@ -20,9 +20,9 @@ using scotopic::test::bytes_of;
 const fs::path source = fs::path(SCOTOPIC_SOURCE_DIR) / "src";
 
 // From the ground up; a room may include itself and those before it.
-const std::vector<std::string> rooms = {"kernel", "receptors", "adaptation", "stages", "batch",    "scene",
-                                        "base",   "scotopic",  "color",      "io",     "pipeline", "shaders",
-                                        "looks",  "cli",       "host",       "python", "ofx"};
+const std::vector<std::string> rooms = {
+    "kernel",   "receptors", "adaptation", "stages",  "batch",  "scene", "base", "scotopic", "color", "io",
+    "pipeline", "shaders",   "looks",      "options", "report", "bake",  "host", "python",   "ofx",   "cli"};
 
 std::ptrdiff_t floor_of(const fs::path& file_in_source) {
   return std::find(rooms.begin(), rooms.end(), file_in_source.begin()->string()) - rooms.begin();

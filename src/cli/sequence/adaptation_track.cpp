@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "cli/options/values.h"
+#include "options/values.h"
 
 namespace scotopic {
 namespace {

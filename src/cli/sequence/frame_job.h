@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cli/console.h"
+#include "report/console.h"
 #include "base/limits.h"
 #include "pipeline/run.h"
 

@@ -1,4 +1,4 @@
-#include "cli/console.h"
+#include "report/console.h"
 #include "cli/sequence/frame_options.h"
 
 #include <fmt/format.h>
@@ -9,6 +9,7 @@
 #include "cli/sequence/provenance.h"
 #include "io/frame_pattern.h"
 #include "io/atomic/output_file.h"
+#include "options/values.h"
 
 namespace scotopic {
 namespace {

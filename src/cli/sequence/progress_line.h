@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "cli/console.h"
+#include "report/console.h"
 
 namespace scotopic {
 

@@ -8,7 +8,7 @@
 
 #include "cli/sequence/adaptation_track.h"
 #include "cli/sequence/frame_options.h"
-#include "cli/scene/scene_settings.h"
+#include "options/scene/scene_settings.h"
 
 namespace scotopic {
 

@@ -1,11 +1,11 @@
 // scotopic apply: an image as the dark-adapted eye sees it.
 #include <fmt/format.h>
 
-#include "cli/report/image_report.h"
+#include "report/image_report.h"
 #include "cli/program.h"
 #include "cli/sequence/provenance.h"
 #include "cli/sequence/run_frames.h"
-#include "cli/scene/apply_settings.h"
+#include "options/scene/apply_settings.h"
 #include "cli/sequence/shot_adaptation.h"
 #include "pipeline/run.h"
 #include "pipeline/stages/display_stages.h"

@@ -7,9 +7,9 @@
 #include "looks/config/manifest.h"
 #include "looks/verify/inspect.h"
 #include "looks/lut/shipped_looks.h"
-#include "cli/options/image_options.h"
+#include "options/image_options.h"
 #include "cli/program.h"
-#include "cli/options/values.h"
+#include "options/values.h"
 #include "pipeline/rows/light_rows.h"
 
 namespace scotopic {

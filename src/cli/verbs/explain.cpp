@@ -6,11 +6,11 @@
 #include "adaptation/named_adaptations.h"
 #include "cli/verbs/explain_config.h"
 #include "cli/verbs/explain_frames.h"
-#include "cli/report/explain_report.h"
-#include "cli/report/scene_json.h"
-#include "cli/report/image_report.h"
+#include "report/explain_report.h"
+#include "report/scene_json.h"
+#include "report/image_report.h"
 #include "cli/program.h"
-#include "cli/scene/scene_settings.h"
+#include "options/scene/scene_settings.h"
 #include "pipeline/run.h"
 
 namespace scotopic {

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <optional>
 
-#include "cli/report/image_report.h"
+#include "report/image_report.h"
 #include "cli/sequence/adaptation_track.h"
 #include "cli/sequence/in_order.h"
 #include "cli/sequence/progress_line.h"

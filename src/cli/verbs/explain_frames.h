@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/sequence/frame_options.h"
-#include "cli/scene/scene_settings.h"
+#include "options/scene/scene_settings.h"
 
 namespace scotopic {
 

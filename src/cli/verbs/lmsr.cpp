@@ -1,13 +1,13 @@
 // scotopic lmsr: an image as the signals of cones and rods.
 #include <fmt/format.h>
 
-#include "cli/options/image_options.h"
-#include "cli/report/image_report.h"
+#include "options/image_options.h"
+#include "report/image_report.h"
 #include "cli/program.h"
 #include "cli/sequence/provenance.h"
 #include "cli/sequence/run_frames.h"
-#include "cli/options/spectral_options.h"
-#include "cli/options/values.h"
+#include "options/spectral_options.h"
+#include "options/values.h"
 #include "pipeline/lmsr_image.h"
 #include "pipeline/scene/open_image.h"
 #include "pipeline/scene/stamps.h"

@@ -12,14 +12,14 @@
 
 #include "batch/batch.h"
 #include "looks/verify/contenders.h"
-#include "cli/options/image_options.h"
-#include "cli/options/operator_options.h"
+#include "options/image_options.h"
+#include "options/operator_options.h"
 #include "cli/program.h"
 #include "pipeline/apply_image.h"
 #include "pipeline/scene/scene_numbers.h"
-#include "cli/options/spectral_options.h"
-#include "cli/report/time_report.h"
-#include "cli/options/values.h"
+#include "options/spectral_options.h"
+#include "report/time_report.h"
+#include "options/values.h"
 #include "pipeline/rows/light_rows.h"
 
 namespace scotopic {
