@@ -19,7 +19,7 @@
 namespace scotopic {
 namespace {
 
-bool ends_in_json = false, running = false;
+bool ends_in_json = false, started = false;
 
 void write_all(const char* text) { (void)!write(STDERR_FILENO, text, std::strlen(text)); }
 
@@ -53,11 +53,11 @@ void end_by_library() {
 }
 extern "C" void end_on_abort(int) { end_by_library(); }
 extern "C" void end_on_exit() {
-  if (running) end_by_library();
+  if (started) end_by_library();
 }
 
 /// A standard stream that is closed would give its number to the next file opened. Reading in place of
-/// writing, so that what is written there still fails.
+/// started, so that what is written there still fails.
 void open_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) < 0) (void)!open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
@@ -85,7 +85,7 @@ void ignore_environment() {
 
 Process::Process(bool json) {
   ends_in_json = json;
-  running = true;
+  started = true;
   static const int registered = std::atexit(end_on_exit);
   (void)registered;
   open_standard_streams();
@@ -96,6 +96,6 @@ Process::Process(bool json) {
   remove_unfinished_files_on_signals();
 }
 
-Process::~Process() { running = false; }
+Process::~Process() { started = false; }
 
 }  // namespace scotopic

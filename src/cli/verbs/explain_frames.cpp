@@ -24,7 +24,7 @@ std::string joined(const std::vector<std::string>& words) {
   return text.empty() ? "nothing" : text;
 }
 
-std::vector<std::string> running(const ScenePlan& plan) {
+std::vector<std::string> running_effects(const ScenePlan& plan) {
   std::vector<std::string> effects;
   for (const EffectDecision& d : plan.effects)
     if (d.runs()) effects.emplace_back(d.effect);
@@ -48,7 +48,7 @@ void meter_one(const ImageSettings& settings, const Frame& frame, const Console&
   out.resolution = scene.resolution;
   out.frame_rate = scene.frame_rate;
   out.light = {*frame.number, frame.paths.input, scene.numbers, scene.statistics->sp_ratio(),
-               running(scene.plan)};
+               running_effects(scene.plan)};
 }
 
 std::vector<Metered> meter_all(const ImageSettings& settings, const std::vector<Frame>& frames,
@@ -198,7 +198,7 @@ int explain_frames(const ImageSettings& settings, const std::vector<Frame>& fram
   SceneNumbers of_shot = lights.front().numbers;
   of_shot.adaptation = shot.median;
   // As apply has it, which then looks at no frame's statistics.
-  const std::vector<std::string> effects = running(plan_for(settings, of_shot, *resolution, nullptr));
+  const std::vector<std::string> effects = running_effects(plan_for(settings, of_shot, *resolution, nullptr));
   const std::vector<PlanChange> changes = plan_changes(lights);
   if (table == FramesTable::bars) print(lights, traces, shot, effects, changes);
   if (table == FramesTable::csv) print_csv(lights);
