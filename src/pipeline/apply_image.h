@@ -34,6 +34,8 @@ struct ImageStages {
   std::vector<const RowStage*> after;
   Moment moment;
   std::atomic<std::uint64_t>* clipped = nullptr;  ///< counts pixels that the output's type cannot hold
+  std::atomic<std::uint64_t>* behind_alpha =
+      nullptr;  ///< counts pixels whose light a straight alpha of 0 hides
 };
 
 /// What a pass over the light finds, smaller resolutions aside.

@@ -148,10 +148,13 @@ class ImageRun {
     FramesOfImage frames(image, settings_, job_.moment, notes_);
     look(image, frames);
     make_stages(image, frames);
-    std::atomic<std::uint64_t> clipped = 0;
+    std::atomic<std::uint64_t> clipped = 0, behind_alpha = 0;
     stages_.clipped = &clipped;
+    stages_.behind_alpha = &behind_alpha;
     report_.non_finite = ends_.write(image, settings_.config, stages_, job_.progress);
-    tell_clipped(image, clipped);
+    report_.clipped = told_share(image, clipped, "are clipped to what the output's type holds");
+    told_share(image, behind_alpha,
+               "are light beside an alpha of 0, which straight alpha hides: EXR keeps it, JPEG shows it");
     describe(image);
     return std::move(report_);
   }
@@ -168,16 +171,17 @@ class ImageRun {
     notes_.note(file + ": " + plan_line(scene.plan));
   }
 
-  void tell_clipped(const OpenImage& image, std::uint64_t clipped) {
+  /// Says it, if there is something to say.
+  double told_share(const OpenImage& image, std::uint64_t count, std::string_view are) {
     std::uint64_t pixels = 0;
     for (const LightSubimage& light : image.layout.light) {
       const Window& data = image.source->subimages()[light.index].data;
       pixels += static_cast<std::uint64_t>(data.width()) * static_cast<std::uint64_t>(data.height());
     }
-    report_.clipped = static_cast<double>(clipped) / static_cast<double>(std::max<std::uint64_t>(pixels, 1));
-    if (clipped > 0)
-      notes_.note(fmt::format("{}: {:.2g} % of its pixels are clipped to what the output's type holds",
-                              image.source->file(), 100 * report_.clipped));
+    const double share = static_cast<double>(count) / static_cast<double>(std::max<std::uint64_t>(pixels, 1));
+    if (count > 0)
+      notes_.note(fmt::format("{}: {:.2g} % of its pixels {}", image.source->file(), 100 * share, are));
+    return share;
   }
 
   /// Said where it matters: seconds are of noise and time alone.

@@ -291,5 +291,27 @@ TEST(Colours, straight_and_associated_alpha_are_the_same_light) {
   for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(x[c], y[c], 1e-6) << c;
 }
 
+// A lamp's glow on nothing: an alpha of 0 beside light, which straight colour cannot show.
+TEST(Colours, light_that_straight_alpha_hides_is_told) {
+  const std::string file = test::place("glow.exr"), told = "light beside an alpha of 0";
+  const auto is_told = [&](const std::string& in, const char* out) {
+    const test::Run run = test::apply(in, test::place(out));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return test::says(run.err, told);
+  };
+  const auto glow = [&](float light, float alpha, const char* out) {
+    test::write_flat_exr(file, {{"", {{"R", light}, {"G", light}, {"B", light}, {"A", alpha}}}});
+    return is_told(file, out);
+  };
+  EXPECT_TRUE(glow(0.5f, 0, "out.png"));
+  EXPECT_FALSE(glow(0.5f, 0, "out.exr"));
+  EXPECT_FALSE(glow(0.5f, 0, "out.jpg"));
+  EXPECT_FALSE(glow(0.5f, 0.25f, "out.png"));
+  EXPECT_FALSE(glow(0, 0, "out.png"));
+  // Hidden before, hidden after: nobody has lost it.
+  test::write_bytes(test::place("hidden.png"), test::flat_png({30000, 30000, 30000, 0}, {}));
+  EXPECT_FALSE(is_told(test::place("hidden.png"), "out.png"));
+}
+
 }  // namespace
 }  // namespace scotopic

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstring>
 
-#include "stages/lamp/lamp.h"
-#include "stages/limits.h"
 #include "io/pixels/copy_pixels.h"
 #include "pipeline/rows/dither.h"
 #include "receptors/receptor_space.h"
+#include "stages/lamp/lamp.h"
+#include "stages/limits.h"
 
 namespace scotopic {
 
@@ -180,6 +180,14 @@ std::uint64_t clipped_pixels(const LightRow& light, PixelType type) noexcept {
   std::uint64_t count = 0;
   for (std::size_t i = 0; i < light.r.size(); ++i)
     count += !(inside(light.r[i]) && inside(light.g[i]) && inside(light.b[i]));
+  return count;
+}
+
+std::uint64_t pixels_behind_alpha(const LightRow& light) noexcept {
+  constexpr float seen = 1.0f / 255;
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < light.alpha.size(); ++i)
+    count += light.alpha[i] == 0 && std::max({light.r[i], light.g[i], light.b[i]}) >= seen;
   return count;
 }
 

@@ -246,8 +246,10 @@ void SubimageRun::write_row(const Band& in, int x, int row, Room& room, const Ba
     const NativeRow sources[3] = {colour_row(in, row, 0), colour_row(in, row, 1), colour_row(in, row, 2)};
     changed = writer_.write(light, targets, &sources, x, in.y0 + row);
   }
-  const bool counts = stages_.clipped && source_subimage_.is_full_resolution();
-  if (changed && counts) *stages_.clipped += clipped_pixels(light, targets[0].type);
+  if (source_subimage_.is_full_resolution()) {
+    if (changed && stages_.clipped) *stages_.clipped += clipped_pixels(light, targets[0].type);
+    if (straightened_ && stages_.behind_alpha) *stages_.behind_alpha += pixels_behind_alpha(light);
+  }
   copy_others(in, row, light, out);
 }
 
@@ -269,6 +271,7 @@ void SubimageRun::set_alpha(bool linear) {
   if (!alpha || std::find(others_.begin(), others_.end(), *alpha) == others_.end()) return;
   const bool straight = out_.subimage.unassociated_alpha;
   writer_.divide_by_alpha = straight || !linear;
+  straightened_ = straight && !source_subimage_.unassociated_alpha;
   writer_.multiply_by_alpha = !straight && !linear;
 }
 

@@ -75,7 +75,8 @@ class SubimageRun {
   const LightPlanes* frame_ = nullptr;
   LightReader reader_;
   LightWriter writer_;
-  bool whole_rows_ = false;  // for stages after the filters that look at the scene
+  bool straightened_ = false;  ///< colour is divided by alpha, which the source had multiplied in
+  bool whole_rows_ = false;    // for stages after the filters that look at the scene
   std::size_t layer_;
   std::size_t first_other_ = 3;      // of the output's channels: those before are R, G, B of each layer
   std::vector<std::size_t> others_;  // channel of the source for each from there on
