@@ -14,10 +14,10 @@
 #include <set>
 
 #include "base/error.h"
-#include "io/exr/exr_tags.h"
 #include "io/exr/exr_headers.h"
-#include "io/exr/open_exr.h"
 #include "io/exr/exr_source.h"
+#include "io/exr/exr_tags.h"
+#include "io/exr/open_exr.h"
 #include "io/pixels/row_bands.h"
 #include "io/spectral/spectral_header.h"
 #include "receptors/illuminant.h"
@@ -184,6 +184,21 @@ SpectralWeights ExrSpectralSource::weights(const BandGrid& grid, const SpectralO
   return emissive_weights(grid, options.sampling, unit);
 }
 
+namespace {
+
+// nm; eight bands over the visible, the fewest that renderers use, lie 50 apart.
+constexpr double widest_usual_step = 51;
+
+/// What lies between neighbours, as far as it is within 380 to 780 nm; `centres` rise.
+double widest_visible_step(const std::vector<double>& centres) {
+  double widest = 0;
+  for (std::size_t i = 1; i < centres.size(); ++i)
+    widest = std::max(widest, std::min(centres[i], 780.0) - std::max(centres[i - 1], 380.0));
+  return widest;
+}
+
+}  // namespace
+
 void ExrSpectralSource::weigh(const SpectralOptions& options) {
   report_.kind = layout_.kind;
   report_.bands = layout_.bands.size();
@@ -198,6 +213,9 @@ void ExrSpectralSource::weigh(const SpectralOptions& options) {
   for (const SpectralBand& band : layout_.bands) centres.push_back(band.nm);
   report_.first_nm = centres.front();
   report_.last_nm = centres.back();
+  if (const double step = widest_visible_step(centres); step > widest_usual_step)
+    layout_.notes.push_back(fmt::format(
+        "up to {:.4g} nm of the visible lie between two bands: each stands for half of that", step));
   keep_weighed_bands(weights(BandGrid(std::move(centres)), options));
 }
 

@@ -10,12 +10,12 @@
 #include <cstdio>
 #include <locale>
 
-#include "pipeline/apply_image.h"
 #include "base/error.h"
+#include "io/spectral/scene.h"
 #include "io/spectral/spectral_source.h"
+#include "pipeline/apply_image.h"
 #include "receptors/receptor_space.h"
 #include "receptors/support.h"
-#include "io/spectral/scene.h"
 
 namespace scotopic {
 namespace {
@@ -343,6 +343,22 @@ TEST(SpectralSource, units_that_are_no_radiance_are_said_unasked) {
     EXPECT_NE(notes[0].find(units), std::string::npos);
     EXPECT_TRUE(notes_of(units, BandUnit::per_nm).empty()) << units;
   }
+}
+
+TEST(SpectralSource, bands_far_apart_are_said_unasked) {
+  Scene scene;
+  const test::TemporaryFolder folder;
+  const auto notes_of = [&](double first, double step, double last) {
+    scene.centres = test::band_centres(first, step, last);
+    scene.step = step;
+    test::write_exr(folder / "apart.exr", scene.image(scene.bands()));
+    return open(folder / "apart.exr")->subimages().at(0).notes;
+  };
+  EXPECT_TRUE(notes_of(380, 50, 780).empty());
+  EXPECT_EQ(notes_of(400, 100, 700),
+            std::vector<std::string>{
+                "up to 100 nm of the visible lie between two bands: each stands for half of that"});
+  EXPECT_EQ(notes_of(200, 900, 1100).at(0).substr(0, 12), "up to 400 nm");
 }
 
 TEST(SpectralSource, infrared_is_left_out_and_said) {
