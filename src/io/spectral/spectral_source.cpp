@@ -200,6 +200,10 @@ double widest_visible_step(const std::vector<double>& centres) {
 }  // namespace
 
 void ExrSpectralSource::weigh(const SpectralOptions& options) {
+  const std::string version =
+      text_attribute(header_of(channels_[layout_.bands.front().channel]), "spectralLayoutVersion");
+  if (!version.empty() && version != "1.0")
+    layout_.notes.push_back("spectralLayoutVersion \"" + version + "\" is read as \"1.0\"");
   report_.kind = layout_.kind;
   report_.bands = layout_.bands.size();
   if (layout_.kind == SpectralKind::receptors) {

@@ -345,6 +345,16 @@ TEST(SpectralSource, units_that_are_no_radiance_are_said_unasked) {
   }
 }
 
+TEST(SpectralSource, a_later_layout_is_said_unasked) {
+  const Scene scene;
+  const test::TemporaryFolder folder;
+  TestImage image = scene.image(scene.bands());
+  image.text_attributes[0] = {"spectralLayoutVersion", "2.0"};
+  test::write_exr(folder / "later.exr", image);
+  EXPECT_EQ(open(folder / "later.exr")->subimages().at(0).notes,
+            std::vector<std::string>{"spectralLayoutVersion \"2.0\" is read as \"1.0\""});
+}
+
 TEST(SpectralSource, bands_far_apart_are_said_unasked) {
   Scene scene;
   const test::TemporaryFolder folder;
