@@ -92,7 +92,7 @@ struct Subimage {
   std::optional<double> white_luminance;  ///< attribute whiteLuminance, cd/m2
   /// What reading it changes or leaves out, one sentence each.
   std::vector<std::string> notes;
-  std::optional<double> lmsr_unit;  ///< attribute scotopic:lmsrUnit, cd/m2 (docs: image/apply_image.h)
+  std::optional<double> lmsr_unit;  ///< attribute scotopic:lmsrUnit, cd/m2 (docs/spectra.md)
 
   /// Not one of the smaller resolutions of a tiled EXR.
   bool is_full_resolution() const noexcept { return level_x == 0 && level_y == 0; }

@@ -52,7 +52,7 @@ struct WorstPixel {
 
 /// How far an evaluator is from the reference, in double, over some colours; results are float.
 struct EvaluatorError {
-  ErrorStatistics difference;  ///< CIEDE2000 exposed to Y = .184 (appearance/colour_difference.h)
+  ErrorStatistics difference;  ///< CIEDE2000 exposed to Y = .184 (stages/shared/colour_difference.h)
   ErrorStatistics pixel;       ///< greatest error of a component over the pixel's largest, in or out
   ErrorStatistics
       component;  ///< error of a component in float ulps of its exact value; greatest of the three

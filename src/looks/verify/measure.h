@@ -39,7 +39,7 @@ Colours stop_colours(std::size_t count, const Matrix3<double>& xyz_from_gamut,
 /// How many of linear RGB colours lie outside AP1, beyond what rounding to float puts there.
 std::size_t outside_ap1(const Colours& colours, const Matrix3<double>& xyz_from_rgb);
 
-/// CIEDE2000 at equal exposure (appearance/colour_difference.h) between what should be and what is.
+/// CIEDE2000 at equal exposure (stages/shared/colour_difference.h) between what should be and what is.
 struct BakeError {
   double mean = 0, p99 = 0, max = 0;
   Vec3<double> worst{}, expected{}, got{};  ///< linear RGB in, wanted and given where the error is greatest
