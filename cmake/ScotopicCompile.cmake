@@ -3,7 +3,7 @@ add_library(scotopic_compile INTERFACE)
 target_compile_options(scotopic_compile INTERFACE
   -Wall -Wextra -Wconversion
   # Of files compiled together, what one calls its own is no global of the other's.
-  $<IF:$<BOOL:${CMAKE_UNITY_BUILD}>,-Wshadow=local,-Wshadow>
+  $<IF:$<AND:$<BOOL:${CMAKE_UNITY_BUILD}>,$<CXX_COMPILER_ID:GNU>>,-Wshadow=local,-Wshadow>
   # One multiplication, one rounding: results must not depend on what the compiler fuses.
   -ffp-contract=off
   # GCC 12 sees overlaps in std::string that are not there (its bug 105651).
@@ -49,5 +49,9 @@ function(scotopic_words target)
   if(NOT CMAKE_UNITY_BUILD)
     target_precompile_headers(${target} PRIVATE <CLI/CLI.hpp> <fmt/format.h> <nlohmann/json.hpp>)
   endif()
-  target_compile_options(${target} PRIVATE $<IF:$<BOOL:${SCOTOPIC_SANITIZE}>,-O0,$<$<CONFIG:Release>:-O1>>)
+  if(SCOTOPIC_SANITIZE)
+    target_compile_options(${target} PRIVATE -O0)
+  else()
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
 endfunction()

@@ -57,7 +57,7 @@ extern "C" void end_on_exit() {
 }
 
 /// A standard stream that is closed would give its number to the next file opened. Reading in place of
-/// started, so that what is written there still fails.
+/// writing, so that what is written there still fails.
 void open_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) < 0) (void)!open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);

@@ -308,6 +308,9 @@ TEST(Colours, light_that_straight_alpha_hides_is_told) {
   EXPECT_FALSE(glow(0.5f, 0, "out.jpg"));
   EXPECT_FALSE(glow(0.5f, 0.25f, "out.png"));
   EXPECT_FALSE(glow(0, 0, "out.png"));
+  // Whose code of no light is not 0.
+  EXPECT_FALSE(
+      test::says(test::apply(file, test::place("log.png"), {"--output-colorspace", "ACEScct"}).err, told));
   // Hidden before, hidden after: nobody has lost it.
   test::write_bytes(test::place("hidden.png"), test::flat_png({30000, 30000, 30000, 0}, {}));
   EXPECT_FALSE(is_told(test::place("hidden.png"), "out.png"));

@@ -2,13 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 
-#include "looks/config/manifest.h"
-#include "looks/verify/inspect.h"
-#include "looks/lut/shipped_looks.h"
-#include "options/image_options.h"
 #include "cli/program.h"
+#include "looks/config/manifest.h"
+#include "looks/lut/shipped_looks.h"
+#include "looks/verify/inspect.h"
+#include "options/image_options.h"
 #include "options/values.h"
 #include "pipeline/rows/light_rows.h"
 

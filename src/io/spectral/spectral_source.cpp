@@ -200,10 +200,12 @@ double widest_visible_step(const std::vector<double>& centres) {
 }  // namespace
 
 void ExrSpectralSource::weigh(const SpectralOptions& options) {
-  const std::string version =
-      text_attribute(header_of(channels_[layout_.bands.front().channel]), "spectralLayoutVersion");
-  if (!version.empty() && version != "1.0")
+  for (int part = 0; part < at(0).parts(); ++part) {
+    const std::string version = text_attribute(at(0).header(part), "spectralLayoutVersion");
+    if (version.empty() || version == "1.0") continue;
     layout_.notes.push_back("spectralLayoutVersion \"" + version + "\" is read as \"1.0\"");
+    break;
+  }
   report_.kind = layout_.kind;
   report_.bands = layout_.bands.size();
   if (layout_.kind == SpectralKind::receptors) {
@@ -218,8 +220,7 @@ void ExrSpectralSource::weigh(const SpectralOptions& options) {
   report_.first_nm = centres.front();
   report_.last_nm = centres.back();
   if (const double step = widest_visible_step(centres); step > widest_usual_step)
-    layout_.notes.push_back(fmt::format(
-        "up to {:.4g} nm of the visible lie between two bands: each stands for half of that", step));
+    layout_.notes.push_back(fmt::format("up to {:.4g} nm of the visible lie between two bands", step));
   keep_weighed_bands(weights(BandGrid(std::move(centres)), options));
 }
 

@@ -183,11 +183,11 @@ std::uint64_t clipped_pixels(const LightRow& light, PixelType type) noexcept {
   return count;
 }
 
-std::uint64_t pixels_behind_alpha(const LightRow& light) noexcept {
-  constexpr float seen = 1.0f / 255;
+std::uint64_t pixels_behind_alpha(const LightRow& light, float gain) noexcept {
+  constexpr float seen = 1 / (255 * 12.92f);  // IEC 61966-2-1
   std::uint64_t count = 0;
   for (std::size_t i = 0; i < light.alpha.size(); ++i)
-    count += light.alpha[i] == 0 && std::max({light.r[i], light.g[i], light.b[i]}) >= seen;
+    count += light.alpha[i] == 0 && gain * std::max({light.r[i], light.g[i], light.b[i]}) >= seen;
   return count;
 }
 

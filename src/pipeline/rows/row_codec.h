@@ -73,8 +73,9 @@ class LightReader {
 
 /// Pixels of values that whole numbers from 0 to 1 do not hold; 0 for other types.
 std::uint64_t clipped_pixels(const LightRow& light, PixelType type) noexcept;
-/// Pixels of light, of at least an 8-bit code, where alpha is 0: as straight colour they are not shown.
-std::uint64_t pixels_behind_alpha(const LightRow& light) noexcept;
+/// Pixels of light where alpha is 0, which straight colour does not show; linear, times `gain` at least
+/// sRGB's first code of 255.
+std::uint64_t pixels_behind_alpha(const LightRow& light, float gain) noexcept;
 
 /// Writes light as rows of three colour channels.
 struct LightWriter {

@@ -239,6 +239,9 @@ void SubimageRun::write_row(const Band& in, int x, int row, Room& room, const Ba
   LightRow& light = room.light;
   const auto target = [&](std::size_t c) { return out.channels[3 * layer_ + c].row(row); };
   const NativeRow targets[3] = {target(0), target(1), target(2)};
+  const bool counts = source_subimage_.is_full_resolution();
+  if (counts && straightened_ && stages_.behind_alpha)
+    *stages_.behind_alpha += pixels_behind_alpha(light, writer_.gain);
   bool changed = false;
   if (reader_.receptors()) {
     changed = writer_.write(light, targets, nullptr, x, in.y0 + row);
@@ -246,10 +249,7 @@ void SubimageRun::write_row(const Band& in, int x, int row, Room& room, const Ba
     const NativeRow sources[3] = {colour_row(in, row, 0), colour_row(in, row, 1), colour_row(in, row, 2)};
     changed = writer_.write(light, targets, &sources, x, in.y0 + row);
   }
-  if (source_subimage_.is_full_resolution()) {
-    if (changed && stages_.clipped) *stages_.clipped += clipped_pixels(light, targets[0].type);
-    if (straightened_ && stages_.behind_alpha) *stages_.behind_alpha += pixels_behind_alpha(light);
-  }
+  if (counts && changed && stages_.clipped) *stages_.clipped += clipped_pixels(light, targets[0].type);
   copy_others(in, row, light, out);
 }
 
