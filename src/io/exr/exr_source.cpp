@@ -1,8 +1,8 @@
 #include "io/exr/exr_source.h"
 
-#include <OpenEXR/ImfEnvmapAttribute.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfCompression.h>
+#include <OpenEXR/ImfEnvmapAttribute.h>
 #include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfInputPart.h>
@@ -44,6 +44,8 @@ bool is_luminance_chroma(const Imf::Header& header) {
 
 bool is_tiled(const Imf::Header& header) { return header.hasTileDescription(); }
 
+}  // namespace
+
 Window window_of(const Imath::Box2i& box) {
   // 64 bits first: a hostile header may hold the extremes of int.
   const auto after = [](int last) {
@@ -51,8 +53,6 @@ Window window_of(const Imath::Box2i& box) {
   };
   return {box.min.x, box.min.y, after(box.max.x), after(box.max.y)};
 }
-
-}  // namespace
 
 int rows_compressed_together(const Imf::Header& header) {
   return header.hasTileDescription() ? static_cast<int>(header.tileDescription().ySize)

@@ -1,6 +1,7 @@
 // OpenEXR files through its own library: every attribute, type, window, tile and part as it is in the file.
 #pragma once
 
+#include <Imath/ImathBox.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
@@ -55,6 +56,8 @@ PixelType pixel_type(Imf::PixelType type);
 /// And back; no integer type but uint32.
 Imf::PixelType exr_type(PixelType type);
 
+/// Clamped where an extreme of int stands in a hostile header.
+Window window_of(const Imath::Box2i& box);
 /// The window of one resolution of a part.
 Window level_window(const Imf::Header& header, int width, int height);
 

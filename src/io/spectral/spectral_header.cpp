@@ -5,8 +5,11 @@
 #include <OpenEXR/ImfStringAttribute.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <set>
+
+#include "io/exr/exr_tags.h"
 
 namespace scotopic {
 
@@ -62,6 +65,21 @@ std::vector<Attribute> attributes_without_spectral_ones(const Imf::Header& heade
     }
   }
   return out;
+}
+
+std::string later_layout(const std::vector<const Imf::Header*>& parts) {
+  for (const Imf::Header* part : parts)
+    if (std::string version = text_attribute(*part, "spectralLayoutVersion");
+        !version.empty() && version != "1.0")
+      return version;
+  return "";
+}
+
+double widest_visible_step(const std::vector<double>& centres) {
+  double widest = 0;
+  for (std::size_t i = 1; i < centres.size(); ++i)
+    widest = std::max(widest, std::min(centres[i], 780.0) - std::max(centres[i - 1], 380.0));
+  return widest;
 }
 
 }  // namespace scotopic

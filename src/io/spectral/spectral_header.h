@@ -23,6 +23,14 @@ bool states_radiance(const std::string& emissive_units);
 std::pair<BandUnit, std::string> band_unit_of(const std::string& emissive_units,
                                               const std::optional<BandUnit>& chosen);
 
+/// spectralLayoutVersion of the first part that has another than 1.0; empty where none has.
+std::string later_layout(const std::vector<const Imf::Header*>& parts);
+
+/// nm; eight bands over the visible, the fewest that renderers use, lie 50 apart.
+inline constexpr double widest_usual_step = 51;
+/// What lies between two neighbours, at most, as far as it is within 380 to 780 nm; `centres` rise, nm.
+double widest_visible_step(const std::vector<double>& centres);
+
 /// Texts and numbers of a header that also hold for the image made of the bands.
 std::vector<Attribute> attributes_without_spectral_ones(const Imf::Header& header);
 
