@@ -22,17 +22,14 @@ if(SCOTOPIC_SANITIZE)
     "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3|HWY_AVX3_DL)")
 endif()
 
-# scotopic_room(TARGET [GROUP NAME] SOURCES...): adds the files of one room (folder) to its library. With
-# CMAKE_UNITY_BUILD they, or those of the group, are compiled as one, so that their headers are read once.
+# scotopic_room(TARGET SOURCES...): adds the files of one room (folder) to its library. With CMAKE_UNITY_BUILD they are
+# compiled as one, so that their headers are read once.
 function(scotopic_room target)
-  cmake_parse_arguments(ARG "" "GROUP" "" ${ARGN})
-  if(NOT ARG_GROUP)
-    file(RELATIVE_PATH ARG_GROUP ${PROJECT_SOURCE_DIR}/src ${CMAKE_CURRENT_SOURCE_DIR})
-    string(REPLACE "/" "_" ARG_GROUP ${ARG_GROUP})
-  endif()
-  list(TRANSFORM ARG_UNPARSED_ARGUMENTS PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/" OUTPUT_VARIABLE files)
-  target_sources(${target} PRIVATE ${files})
-  set_source_files_properties(${files} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${ARG_GROUP})
+  list(TRANSFORM ARGN PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
+  target_sources(${target} PRIVATE ${ARGN})
+  file(RELATIVE_PATH room ${PROJECT_SOURCE_DIR}/src ${CMAKE_CURRENT_SOURCE_DIR})
+  string(REPLACE "/" "_" room ${room})
+  set_source_files_properties(${ARGN} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${room})
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
 endfunction()
 
