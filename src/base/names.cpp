@@ -59,9 +59,18 @@ std::vector<std::string> close_names(std::string_view name, const std::vector<st
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates) {
   const std::vector<std::string> close = close_names(name, candidates);
   if (close.empty()) return "";
-  std::string out = "; did you mean ";
-  for (std::size_t i = 0; i < close.size(); ++i) out += (i ? ", " : "") + close[i];
-  return out + "?";
+  return "; did you mean " + joined(close) + "?";
+}
+
+void add_to_list(std::string& list, std::string_view name) {
+  if (!list.empty()) list += ", ";
+  list += name;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string out;
+  for (const std::string& name : names) add_to_list(out, name);
+  return out;
 }
 
 }  // namespace scotopic

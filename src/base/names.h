@@ -1,4 +1,4 @@
-// "Did you mean": the names closest to one that does not exist.
+// Names in sentences: lists of them, and those closest to one that does not exist.
 #pragma once
 
 #include <string>
@@ -14,5 +14,10 @@ std::vector<std::string> close_names(std::string_view name, const std::vector<st
 
 /// "; did you mean A, B?", or nothing where no candidate is close.
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates);
+
+/// "A" becomes "A, B".
+void add_to_list(std::string& list, std::string_view name);
+/// "A, B, C".
+std::string joined(const std::vector<std::string>& names);
 
 }  // namespace scotopic

@@ -70,9 +70,7 @@ void set_display(const std::string& text, ImageRequest& request) {
 }  // namespace
 
 void add_display_options(CLI::App& verb, DisplayOptions& o) {
-  const auto add = [&](const char* name, std::string& value, const char* text, const char* kind) {
-    verb.add_option(name, value, text)->type_name(kind)->group("Display");
-  };
+  const TextOptions add{verb, "Display"};
   add("--display", o.display,
       "night[:DISPLAY]: as dark as the eye sees it (default for PNG, JPEG and TIFF of whole numbers); none: "
       "values alone "

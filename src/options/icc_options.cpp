@@ -5,9 +5,7 @@
 namespace scotopic {
 
 void add_icc_options(CLI::App& verb, IccOptions& o) {
-  const auto add = [&](const char* name, std::string& value, const char* text, const char* kind) {
-    verb.add_option(name, value, text)->type_name(kind)->group("Output");
-  };
+  const TextOptions add{verb, "Output"};
   add("--icc", o.profile, "Write values of the device that an ICC profile describes, and embed it", "FILE");
   add("--intent", o.intent, "With --icc: perceptual, relative (default), saturation, absolute", "NAME");
   add("--quality", o.jpeg_quality, "Of JPEG, 1 to 100 (default 95)", "N");

@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "base/input_file.h"
-#include "options/values.h"
 #include "color/primaries.h"
+#include "options/values.h"
 
 namespace scotopic {
 
@@ -29,9 +29,7 @@ void add_config_limits(CLI::App& verb, Limits& limits) {
 }
 
 void add_input_options(CLI::App& verb, ImageOptions& o) {
-  const auto add = [&](const char* name, std::string& value, const char* text, const char* kind) {
-    verb.add_option(name, value, text)->type_name(kind)->group("Input");
-  };
+  const TextOptions add{verb, "Input"};
   add("--config", o.config, "OpenColorIO config; else $OCIO, else the program's own", "FILE");
   add_working_primaries(verb, o.working_primaries);
   add("--colorspace", o.colourspace,
@@ -55,9 +53,7 @@ void add_layers_option(CLI::App& verb, ImageOptions& o, const char* text) {
 }
 
 void add_output_options(CLI::App& verb, ImageOptions& o) {
-  const auto add = [&](const char* name, std::string& value, const char* text, const char* kind) {
-    verb.add_option(name, value, text)->type_name(kind)->group("Output");
-  };
+  const TextOptions add{verb, "Output"};
   add("--output-colorspace", o.output_colourspace,
       "Of the output; else the input's, or what its file type calls for", "NAME");
   add("-d", o.type, "Type of colour channels: half, float, uint8, uint16; else the input's", "TYPE");

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "options/values.h"
 #include "options/scene/adaptation_method.h"
+#include "options/values.h"
 #include "pipeline/scene/parameter_names.h"
 #include "receptors/illuminant.h"
 #include "receptors/spectral_weights.h"
@@ -60,10 +60,7 @@ const Names<std::string>& gamuts() {
 }  // namespace
 
 void add_operator_options(CLI::App& verb, OperatorOptions& o, StagesShown shown) {
-  const std::string group = "What is seen";
-  const auto add = [&](const char* name, std::string& value, const std::string& text, const char* kind) {
-    verb.add_option(name, value, text)->type_name(kind)->group(group);
-  };
+  const TextOptions add{verb, "What is seen"};
   add("--adaptation", o.adaptation,
       "Luminance the eye is adapted to, or its name (moon, street, ...: explain --adaptations), or metered: "
       "auto "
@@ -122,7 +119,7 @@ std::string without_effect(const OperatorOptions& o, const OperatorChoice& choic
   const OperatorOptions usual;
   std::string out;
   const auto add = [&](bool given, const char* name) {
-    if (given) out += (out.empty() ? "" : ", ") + std::string(name);
+    if (given) add_to_list(out, name);
   };
   add(o.strength != usual.strength, "--strength");
   for (const char* strength : {"strength-shift", "strength-luminance", "strength-chroma"})

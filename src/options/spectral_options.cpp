@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "options/values.h"
 #include "io/spectral/spectrum_file.h"
+#include "options/values.h"
 #include "receptors/illuminant.h"
 
 namespace scotopic {
@@ -30,9 +30,7 @@ std::vector<std::string> names_in(const std::string& list) {
 }  // namespace
 
 void add_band_options(CLI::App& verb, BandOptions& o) {
-  const auto add = [&](const char* name, std::string& value, const char* text, const char* kind) {
-    verb.add_option(name, value, text)->type_name(kind)->group("Spectral input");
-  };
+  const TextOptions add{verb, "Spectral input"};
   add("--bands", o.bands, "Values are means over their bins (bin, default) or samples (point)", "NAME");
   add("--band-radiance", o.radiance,
       "per nm (nm) or of the whole band (band); else what the file says, else nm", "NAME");

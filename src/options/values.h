@@ -18,6 +18,17 @@ namespace scotopic {
 /// octal or hexadecimal.
 CLI::Validator whole_number(std::int64_t least, std::int64_t greatest);
 
+/// Adds options that are read as text, in one group of a verb's help.
+struct TextOptions {
+  CLI::App& verb;
+  std::string group = "Options";  // CLI11's own
+
+  CLI::Option* operator()(const std::string& name, std::string& value, const std::string& text,
+                          const std::string& kind) const {
+    return verb.add_option(name, value, text)->type_name(kind)->group(group);
+  }
+};
+
 /// A finite decimal number and nothing after it.
 std::optional<double> parse_number(std::string_view text);
 
@@ -40,9 +51,7 @@ T choice(const char* option, const std::string& text, const std::vector<std::pai
     if (name == text) return value;
     known.push_back(name);
   }
-  std::string all;
-  for (const std::string& name : known) all += (all.empty() ? "" : ", ") + name;
-  fail_value(option, text, "one of " + all + did_you_mean(text, known));
+  fail_value(option, text, "one of " + joined(known) + did_you_mean(text, known));
 }
 
 }  // namespace scotopic

@@ -5,9 +5,7 @@
 namespace scotopic {
 
 void add_viewing_options(CLI::App& verb, ViewingOptions& o) {
-  const auto add = [&](const char* name, std::string& value, const char* text, const char* kind) {
-    verb.add_option(name, value, text)->type_name(kind)->group("Viewing");
-  };
+  const TextOptions add{verb, "Viewing"};
   add("--ppd", o.pixels_per_degree, "Pixels per degree of the viewer's field", "X");
   add("--fov", o.field_of_view, "Degrees that the picture's width fills of it, instead of --ppd", "DEG");
   add("--projection", o.projection,

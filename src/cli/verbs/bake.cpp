@@ -6,6 +6,7 @@
 #include "bake/bake_options.h"
 #include "cli/program.h"
 #include "options/image_options.h"
+#include "options/values.h"
 
 namespace scotopic {
 namespace {
@@ -60,9 +61,7 @@ void add_bake(CLI::App& program, Invocation& invocation) {
       "Display\" -o night.cube\n"
       "  scotopic bake --adaptation ladder --beside kirk2011 --config looks/\n"
       "  scotopic bake --adaptation 0.1 --adaptation 0.01 --into studio/config.ocio --dry-run");
-  const auto add = [&](const char* name, std::string& value, const char* text, const char* kind) {
-    return verb.add_option(name, value, text)->type_name(kind);
-  };
+  const TextOptions add{verb};
   add("-o,--output", o.output, "The LUT: .clf, .ctf, .spi3d or .cube; or the shader", "FILE");
   add("--format", o.format,
       "clf, ctf, spi3d, cube; else by the extension. spi3d and cube only for encoded spaces", "NAME");

@@ -174,9 +174,7 @@ void add_check(CLI::App& program, Invocation& invocation) {
       "  scotopic check ocio_config/config.ocio\n"
       "  scotopic check street.clf --max-error 1\n"
       "  scotopic check ocio_config/config.ocio \"Mesopic 0.1 nit (street lighting)\" --image night.exr");
-  const auto add = [&](const char* name, std::string& value, const char* text, const char* kind) {
-    return verb.add_option(name, value, text)->type_name(kind);
-  };
+  const TextOptions add{verb};
   add("bake", o.bake, "A config (.ocio), or a LUT that scotopic bake made", "CONFIG|LUT")->required();
   add("look", o.look, "One look of the config; else all", "LOOK");
   add("--image", o.picture, "Compare on this image's pixels instead of test colours", "FILE");

@@ -7,21 +7,20 @@
 #include <cstdio>
 #include <optional>
 
-#include "report/image_report.h"
+#include "base/names.h"
 #include "cli/sequence/adaptation_track.h"
 #include "cli/sequence/in_order.h"
 #include "cli/sequence/progress_line.h"
 #include "cli/sequence/run_frames.h"
 #include "cli/sequence/shot_adaptation.h"
 #include "pipeline/run.h"
+#include "report/image_report.h"
 
 namespace scotopic {
 namespace {
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text.empty() ? "nothing" : text;
+std::string effects_text(const std::vector<std::string>& effects) {
+  return effects.empty() ? "nothing" : joined(effects);
 }
 
 std::vector<std::string> running_effects(const ScenePlan& plan) {
@@ -111,7 +110,7 @@ void print(const std::vector<FrameLight>& frames, const std::vector<AdaptationTr
     const double share = span > 0 ? std::log(f.numbers.adaptation / shot.least) / span : 1;
     const auto bar = static_cast<std::size_t>(1 + std::lround(share * (width - 1)));
     fmt::print("{:>8} {:>11.4g} {:>6.3g}  {:<{}}  {}{}\n", f.frame, f.numbers.adaptation, f.sp_ratio,
-               std::string(bar, '#'), width, joined(f.effects), adapting ? trace_text(traces[i]) : "");
+               std::string(bar, '#'), width, effects_text(f.effects), adapting ? trace_text(traces[i]) : "");
   }
   for (const PlanChange& c : changes)
     fmt::print("from frame {} on: {}{}{}\n", c.frame, c.begins.empty() ? "" : "with " + joined(c.begins),
@@ -121,7 +120,7 @@ void print(const std::vector<FrameLight>& frames, const std::vector<AdaptationTr
   fmt::print(
       "the shot, as --adaptation-from frames takes it: {:.4g} cd/m2 (median of {} frames, {:.4g} to {:.4g}): "
       "{}\n",
-      shot.median, shot.frames, shot.least, shot.greatest, joined(effects));
+      shot.median, shot.frames, shot.least, shot.greatest, effects_text(effects));
 }
 
 void print_csv(const std::vector<FrameLight>& frames) {

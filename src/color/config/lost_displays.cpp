@@ -6,6 +6,8 @@
 #include <sstream>
 #include <string>
 
+#include "base/names.h"
+
 namespace OCIO = OCIO_NAMESPACE;
 
 namespace scotopic {
@@ -43,7 +45,7 @@ void forget_lost_displays(OCIO::Config& config) {
   for (std::string name; std::getline(names, name, ',');) {
     name = trimmed(name);
     if (known.count(lower(name)))
-      kept += (kept.empty() ? "" : ", ") + name;
+      add_to_list(kept, name);
     else
       lost = true;
   }

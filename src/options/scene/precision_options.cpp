@@ -1,23 +1,20 @@
 #include "options/scene/precision_options.h"
 
-#include "options/values.h"
 #include "looks/verify/evaluator_choice.h"
+#include "options/values.h"
 
 namespace scotopic {
 
 void add_precision_options(CLI::App& verb, PrecisionOptions& o) {
-  const std::string group = "Accuracy and time";
+  const TextOptions add{verb, "Accuracy and time"};
   CLI::Option* const name =
-      verb.add_option("--precision", o.precision,
-                      "float (default), double, or through a LUT in OpenColorIO: lut129, lut65, lut33, lut17")
-          ->type_name("NAME")
-          ->group(group);
-  const auto demand = [&](const char* option, std::string& value, const char* text, const char* kind) {
-    verb.add_option(option, value, text)->type_name(kind)->group(group)->excludes(name);
-  };
-  demand("--max-error", o.max_error,
-         "The cheapest way whose worst colour is at most this far off, measured here and now", "DE00");
-  demand("--budget", o.budget, "The most accurate way that takes no longer for a pixel on one thread", "NS");
+      add("--precision", o.precision,
+          "float (default), double, or through a LUT in OpenColorIO: lut129, lut65, lut33, lut17", "NAME");
+  add("--max-error", o.max_error,
+      "The cheapest way whose worst colour is at most this far off, measured here and now", "DE00")
+      ->excludes(name);
+  add("--budget", o.budget, "The most accurate way that takes no longer for a pixel on one thread", "NS")
+      ->excludes(name);
 }
 
 std::unique_ptr<EvaluatorSource> parse(const PrecisionOptions& o) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/names.h"
 #include "pipeline/layout/find_light.h"
 #include "pipeline/layout/layout.h"
 #include "pipeline/layout/light_notes.h"
@@ -15,7 +16,7 @@ using Kind = ColourChannels::Kind;
 
 std::string listed(const std::vector<PixelType>& types) {
   std::string out;
-  for (const PixelType type : types) out += (out.empty() ? "" : ", ") + std::string(name_of(type));
+  for (const PixelType type : types) add_to_list(out, name_of(type));
   return out;
 }
 

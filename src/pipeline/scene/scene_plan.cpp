@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/names.h"
+
 namespace scotopic {
 
 namespace {
@@ -38,14 +40,11 @@ ScenePlan plan_of(const OperatorChoice& choice, const AppearanceParameters& scen
 
 std::string plan_line(const ScenePlan& plan) {
   std::string runs, skipped, left_out, why;
-  const auto add = [](std::string& list, std::string_view item) {
-    list += (list.empty() ? "" : ", ") + std::string(item);
-  };
   for (const EffectDecision& d : plan.effects) {
-    if (d.runs()) add(runs, d.effect);
-    if (d.asked && !d.needed) add(skipped, std::string(d.effect) + " (" + d.reason + ")");
+    if (d.runs()) add_to_list(runs, d.effect);
+    if (d.asked && !d.needed) add_to_list(skipped, std::string(d.effect) + " (" + d.reason + ")");
     if (!d.left_out) continue;
-    add(left_out, d.effect);
+    add_to_list(left_out, d.effect);
     why = d.reason;
   }
   std::string line = runs.empty() ? "nothing to do" : runs;

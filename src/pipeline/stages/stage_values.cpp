@@ -24,12 +24,6 @@ std::vector<std::string> effect_words(StageTable table) {
   return out;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
-  return out;
-}
-
 }  // namespace
 
 StageValues::StageValues(StageTable table) : table_(table), wishes_(table.size(), EffectWish::if_known) {

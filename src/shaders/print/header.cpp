@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/names.h"
 #include "pipeline/scene/parameter_names.h"
 
 namespace scotopic::shaders {
@@ -22,7 +23,7 @@ std::string stages_of(const ShaderSpec& spec) {
   if (p.model == Model::safko2019) return "the kernel alone";
   std::string out;
   const auto add = [&](bool on, const char* name) {
-    if (on) out += (out.empty() ? "" : ", ") + std::string(name);
+    if (on) add_to_list(out, name);
   };
   add(p.strength.shift > 0, "shift");
   add(p.strength.luminance > 0 && p.luminance != LuminancePolicy::none, "luminance");
