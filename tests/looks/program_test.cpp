@@ -215,6 +215,7 @@ TEST_F(Bake, a_whole_config_is_sound) {
   EXPECT_EQ(baked.err, "");
   const Outcome checked = run_program({"check", folder_.path("new/config.ocio")});
   EXPECT_EQ(checked.exit_code, 0) << checked.out;
+  EXPECT_NE(checked.out.find("/MANIFEST: sound\n"), std::string::npos) << checked.out;
 }
 
 TEST_F(Bake, into_shows_first_then_adds_and_keeps_the_original) {

@@ -87,6 +87,7 @@ void say(const Inspected& it, const std::string& where) {
     line += fmt::format("; {} odd pixels, {} not finite", it.odd.tested, it.odd.not_finite);
   if (it.cube)
     for (const std::string& figures : error_lines(*it.cube, *it.spec)) line += "\n  " + figures;
+  if (!it.error && it.problems.empty()) line += ": sound";  // what has no figures
   for (const std::string& problem : it.problems) line += "\n  FAILED: " + problem;
   std::fputs((line + "\n").c_str(), stdout);
 }
